@@ -1,5 +1,5 @@
-"""./run addon [--platform=NAME,…]: one archive of the addon, to be unzipped into any Godot project:
-build/addon/tactus-VERSION.zip. It has the libraries of this machine's platform, and of those named.
+"""./run addon [--platform=NAME,…] [--all]: one archive of the addon, to be unzipped into any Godot project:
+build/addon/tactus-VERSION.zip. It has the libraries of this machine's platform, and of those named or all.
 """
 
 import re
@@ -25,6 +25,8 @@ SYSTEM_NOTICES = {
     "libsodium": "/usr/share/doc/libsodium-dev/copyright",  # the same work in the libraries of every platform
     "GCC's runtime libraries, linked under the GCC Runtime Library Exception": "/usr/share/doc/libstdc++-*-dev/copyright",
 }
+# In the libraries for depth cameras alone: the camera's driver is compiled with OpenNI2's headers.
+NOTICES_OF_EYES = {"OpenNI2 (interface to its drivers)": "/usr/share/doc/libopenni2-dev/copyright"}
 # In the libraries for one system alone.
 NOTICES_OF = {"windows": {"MinGW-w64, its C runtime and winpthreads": "/usr/share/doc/mingw-w64-x86-64-dev/copyright"}}
 
@@ -98,9 +100,14 @@ def _description(others: list[Platform]) -> str:
     precision = re.search(r"\.debug\.(\w+)\.", own)
     if not minimum or not precision:
         raise RuntimeError(f"{FOLDER}/tactus.gdextension names no version or no library: ./run setup writes it")
-    eyes = [manifest.library(platforms.host(), target, name) for target in manifest.TARGETS.values() for name in manifest.EYES]
-    seeing = [platforms.host()] if all((FOLDER / "bin" / name).is_file() for name in eyes) else []
+    seeing = [platforms.host()] if has_eyes() else []
     return manifest.text(minimum[1], precision[1], [platforms.host(), *others], seeing)
+
+
+def has_eyes() -> bool:
+    """Whether this machine's libraries for depth cameras are there."""
+    names = [manifest.library(platforms.host(), target, name) for target in manifest.TARGETS.values() for name in manifest.EYES]
+    return all((FOLDER / "bin" / name).is_file() for name in names)
 
 
 def _libraries(description: str) -> list[str]:
@@ -112,7 +119,7 @@ def notices(systems: list[Platform]) -> str:
     command = godot.command()
     interface = godot.api_folder(command) / "gdextension_interface.h" if command else None
     texts = {"Jolt Physics": jolt.licence(), "Godot Engine (interface to extensions)": _first_comment(interface)}
-    places = dict(SYSTEM_NOTICES)
+    places = SYSTEM_NOTICES | (NOTICES_OF_EYES if has_eyes() else {})
     for one in systems:
         places |= NOTICES_OF.get(one.system, {})
     for name, path in places.items():

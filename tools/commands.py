@@ -274,8 +274,9 @@ TABLE = (
         [
             ("", "this documentation and the class reference as pages, in build/docs/"),
             ("--figures", "each table of the documents that a command makes, made anew: an hour or so"),
+            ("--pictures", "the pictures of the editor and of scenes in docs/pictures/, drawn anew: some minutes"),
         ],
-        options=lambda _: [Option("--figures")],
+        options=lambda _: [Option("--figures"), Option("--pictures")],
     ),
     Command("edit", [("[SCENE]", "the demo project in the Godot editor")], words=_scene_words),
     Command(
@@ -290,8 +291,11 @@ TABLE = (
     Command("export", [("", "a program that runs on its own, in build/export/")]),
     Command(
         "addon",
-        [("[--platform=NAME,…]", "one archive to unzip into any Godot project, in build/addon/")],
-        options=lambda _: [Option("--platform", "NAME,…", _platforms)],
+        [
+            ("[--platform=NAME,…]", "one archive to unzip into any Godot project, in build/addon/"),
+            ("--all", "the same with libraries for every platform that there is a cross compiler for: Windows, ARM Linux"),
+        ],
+        options=lambda _: [Option("--platform", "NAME,…", _platforms), Option("--all")],
     ),
 )
 BY_NAME = {command.name: command for command in TABLE}

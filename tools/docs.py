@@ -1,4 +1,5 @@
 """./run docs --figures: makes each table anew that a command makes (doc_tables/make.py).
+./run docs --pictures: draws the pictures of docs/pictures/ anew (docs_pictures.py).
 ./run docs: README.md, docs/ and the class reference as pages in build/docs/, made by Sphinx.
 
 Sphinx, for it reads Markdown (by MyST), checks every reference between pages, writes plain files that work from a folder as well
@@ -7,6 +8,7 @@ since August 2024. A warning is an error: a page that nothing leads to, a link t
 nowhere, a heading out of order.
 """
 
+import re
 import shutil
 import subprocess
 import sys
@@ -15,15 +17,27 @@ from pathlib import Path
 import entry
 from setup import cache
 
-# Pages by the heading they stand under beside every page. README.md is the first page.
+# Pages by the shelf they stand on beside every page. README.md is the first page.
 CONTENTS = {
-    "Begin": ["addon", "tutorials/falcon", "tutorials/two_computers", "tutorials/depth_camera", "troubleshooting"],
-    "Research": ["tutorials/own_experiment", "experiments", "studies", "bundles", "teleoperation"],
-    "Extend": ["tutorials/own_force_effect", "tutorials/own_driver", "wire_format"],
-    "Reference": ["classes/index"],
-    "How it works": ["architecture", "proxy", "proxy_steps", "tool", "soft", "physics", "devices", "sensing", "discovery", "tolerances", "stress", "proof"],
-    "Changes": ["changes"],
-}
+    "Guide": [
+        "guide", "install", "addon", "editor", "gallery", "existing_project", "hardware", "platforms", "vr", "performance", "threads", "csharp",
+        "migration", "safety", "faq", "troubleshooting", "tutorials/falcon", "tutorials/two_computers", "tutorials/depth_camera",
+        "tutorials/own_force_effect", "tutorials/own_driver", "tutorials/own_experiment", "studies",
+    ],
+    "Reference": ["classes/index", "godot_physics", "glossary", "wire_format", "experiments", "bundles", "bibliography"],
+    "Results": [
+        "reproduce", "comparison", "proxy", "teleoperation", "tool", "soft", "physics", "credibility", "devices", "sensing", "discovery",
+        "stress", "proof",
+    ],
+    "Internals": ["development", "architecture", "proxy_steps", "tolerances", "roadmap", "changes"],
+    "Project": ["CONTRIBUTING", "SECURITY", "CODE_OF_CONDUCT"],
+}  # fmt: skip
+# Beside the pages: what they link to and what is no page.
+BESIDE = ["LICENSE", "CITATION.cff"]
+
+_PAGES = {"CHANGELOG.md": "changes.md", "README.md": "index.md", "extension/doc_classes": "classes/index.md"}
+_LINKED = [*_PAGES, *(f"{name}.md" for name in CONTENTS["Project"]), *BESIDE]
+_ABOVE = re.compile(rf"\]\(((?:\.\./)*)\.\./({'|'.join(map(re.escape, _LINKED))})")
 
 
 def main(arguments: list[str]) -> int:
@@ -32,6 +46,11 @@ def main(arguments: list[str]) -> int:
 
         changed = tables.all_tables()
         print(f"{len(changed)} tables are others than they were{': ' if changed else ''}{', '.join(changed)}")
+        return 0
+    if "--pictures" in arguments:
+        import docs_pictures
+
+        print(f"docs/pictures: {', '.join(docs_pictures.make())}")
         return 0
     source = cache.emptied(cache.clone() / "build/docs_source")
     write(source)
@@ -50,8 +69,14 @@ def write(folder: Path) -> None:
     from pages.class_pages import Reference
 
     shutil.copytree(cache.clone() / "docs", folder, dirs_exist_ok=True)
+    for page in folder.rglob("*.md"):
+        page.write_text(from_below(page.read_text()))
     (folder / "index.md").write_text(from_above((cache.clone() / "README.md").read_text()) + contents())
     shutil.copy(cache.clone() / "CHANGELOG.md", folder / "changes.md")
+    for name in CONTENTS["Project"]:
+        (folder / f"{name}.md").write_text(from_above((cache.clone() / f"{name}.md").read_text()))
+    for name in BESIDE:
+        shutil.copy(cache.clone() / name, folder / name)
     reference = Reference(ClassTable(path).help() for path in sorted((cache.clone() / "extension/doc_classes").glob("*.xml")))
     classes = folder / "classes"
     classes.mkdir()
@@ -70,6 +95,11 @@ def make(source: Path, output: Path) -> str:
 def from_above(text: str) -> str:
     """Links of a file beside docs/, as seen from inside."""
     return text.replace("](docs/", "](")
+
+
+def from_below(text: str) -> str:
+    """Links of a page to what is beside docs/, as seen from where that is a page, too."""
+    return _ABOVE.sub(lambda found: f"]({found[1]}{_PAGES.get(found[2], found[2])}", text)
 
 
 def contents() -> str:

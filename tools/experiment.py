@@ -18,6 +18,7 @@ from types import ModuleType
 
 import entry
 import replay
+import report
 from measuring import bundles, columns, host, made_by, options, outputs
 from setup import cache
 from sweeps import command as sweep
@@ -43,9 +44,10 @@ def main(arguments: list[str]) -> int:
     if is_sweep:
         return sweep.run(Path(name), given, names())
     experiment = importlib.import_module(f"experiments.{name}")
-    options.parse(experiment.Settings, given)
+    settings = options.parse(experiment.Settings, given)
     folder = f"{name}_real" if _leaves_virtual_time(experiment, given) else name
-    return _carry_out(folder, lambda output: experiment.run(given, output))
+    asked = {"about.options": options.words(settings)}  # with those that were not given, such as the seed
+    return _carry_out(folder, lambda output: asked | experiment.run(given, output))
 
 
 def _carry_out(name: str, run: Callable[[Path], dict[str, object]]) -> int:
@@ -55,6 +57,7 @@ def _carry_out(name: str, run: Callable[[Path], dict[str, object]]) -> int:
             summary = {**citation(), **{key: _sound(value) for key, value in run(output.folder).items()}}
             (output.folder / "summary.json").write_text(json.dumps(summary, indent=2, allow_nan=False) + "\n")
             columns.write(output.folder)
+            (output.folder / "report.html").write_text(report.page_of(name, summary, output.folder))
             folder = output.keep()
         except (RuntimeError, ValueError, OSError) as error:
             if not isinstance(error, options.Refused):

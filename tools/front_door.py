@@ -93,7 +93,8 @@ def needed(name: str, given: Given) -> list[Step]:
 
 def _others(given: Given) -> list[platforms.Platform]:
     """The platforms that --platform=NAME,… names, besides this machine's own."""
-    return platforms.named_in([f"--platform={given.options['--platform']}"] if given.has("--platform") else [])
+    asked = [f"--platform={given.options['--platform']}"] if given.has("--platform") else []
+    return platforms.named_in([*asked, *(["--all"] if given.has("--all") else [])])
 
 
 def setup(given: Given) -> int:

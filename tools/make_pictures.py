@@ -2,7 +2,7 @@
 
     PYTHONPATH=tools python3 tools/make_pictures.py [NAME …]
 
-With --moving the one moving picture of some of them that the README begins with, docs/gallery.webp.
+With --moving the one moving picture of some of them, docs/gallery.webp (docs/gallery.md).
 """
 
 import subprocess

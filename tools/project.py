@@ -95,7 +95,7 @@ def _runs_on() -> str:
     """Where the program runs: its template may lie upon libraries of the cache."""
     if godot.installed():
         return "runs on its own"
-    return f"runs on this machine, for this user: its libraries are in {cache.root()}. For others, export with a Godot of your own (README.md)"
+    return f"runs on this machine, for this user: its libraries are in {cache.root()}. For others, export with a Godot of your own (docs/development.md)"
 
 
 def export_to(target: Path, folder: Path = FOLDER) -> None:

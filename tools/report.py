@@ -5,8 +5,9 @@ import sys
 from pathlib import Path
 
 import report_page as html
-from measuring import gain, targets
+from measuring import columns, gain, targets
 from setup import cache
+from sweeps.results import write_whole
 
 CASES = {"static": "Static scene: ground and a sphere", "dynamic": "Dynamic scene: ground and a box of 0.3 kg"}
 
@@ -38,26 +39,58 @@ FIGURES = {
 
 
 def main() -> int:
-    folder = cache.clone() / "build/experiments/scenario1"
-    if not (folder / "summary.json").is_file():
+    place = cache.clone() / "build/experiments"
+    if not any(place.glob("*/summary.json")):
         print("nothing to report yet: ./run experiment scenario1", file=sys.stderr)
         return 1
     target = cache.clone() / "build/report/index.html"
     target.parent.mkdir(parents=True, exist_ok=True)
-    target.write_text(page(folder, folder.with_name("scenario4"), folder.with_name("scenario5")))
+    write_whole(target, page(place))
     print(cache.shown(target))
     return 0
 
 
-def page(scenario1: Path, scenario4: Path, scenario5: Path) -> str:
-    summary = json.loads((scenario1 / "summary.json").read_text())
-    network = [_scenario4(scenario4)] if (scenario4 / "summary.json").is_file() else []
-    network += [_scenario5(scenario5)] if (scenario5 / "summary.json").is_file() else []
+def page(place: Path) -> str:
+    """Of every experiment that has left a summary in `place`."""
+    found = {path.parent.name: json.loads(path.read_text()) for path in sorted(place.glob("*/summary.json")) if "." not in path.parent.name}
+    sections = []
+    for name, of_scenario in SCENARIOS.items():
+        if name in found:
+            sections.append(of_scenario(found[name], place / name))
+    sections += [_of_any(name, found[name], place / name) for name in found if name not in SCENARIOS]
+    sections += [_machine(found["scenario1"])] if "scenario1" in found else []
     return html.page(
         "Tactus: touch in Godot at 1 kHz",
         "A scripted hand is drawn along the thesis's path through two scenes, in Godot itself. Measured on this machine.",
-        [_scenario1(summary, scenario1), *network, _machine(summary)],
+        sections,
     )
+
+
+def page_of(name: str, summary: targets.Summary, folder: Path) -> str:
+    """Of one experiment, from its figures and the pictures in `folder`."""
+    return html.page(name, str(summary.get("about.command", "")), [_of_any(name, summary, folder)])
+
+
+# Of an experiment that has no section of its own; all of them are in its summary.json.
+MOST_FIGURES = 60
+
+
+def _of_any(name: str, summary: targets.Summary, folder: Path) -> str:
+    figures = [(key, value) for key, value in summary.items() if not key.startswith(("about.", "machine."))]
+    rows = [(key, _of_key(key, value), columns.meaning(key.rsplit(".", 1)[-1])) for key, value in figures[:MOST_FIGURES]]
+    left = len(figures) - len(rows)
+    about = ", ".join(str(summary[f"about.{key}"]) for key in ("command", "version", "utc", "machine") if f"about.{key}" in summary)
+    return html.section(
+        name,
+        html.paragraph(about),
+        *(html.picture(path, path.stem.replace("_", " ")) for path in sorted(folder.glob("*.png"))),
+        html.table(("Figure", "Found", "Meaning"), rows, numbers_from=1),
+        *([html.paragraph(f"{left} more figures are in summary.json.")] if left else []),
+    )
+
+
+def _of_key(key: str, value: object) -> str:
+    return f"{value:.4g}" if isinstance(value, float) else "–" if value is None else _plain(value)
 
 
 def _scenario1(summary: targets.Summary, folder: Path) -> str:
@@ -74,8 +107,7 @@ def _scenario1(summary: targets.Summary, folder: Path) -> str:
     return html.section("Scenario 1: a hand and a virtual world", *parts)
 
 
-def _scenario4(folder: Path) -> str:
-    summary = json.loads((folder / "summary.json").read_text())
+def _scenario4(summary: targets.Summary, folder: Path) -> str:
     away = f"{float(summary['static.mmt.round_trip_ms']):.0f} ms"
     return html.section(
         f"Scenario 4: the same touch, {away} away",
@@ -101,8 +133,7 @@ SEEN = {
 }
 
 
-def _scenario5(folder: Path) -> str:
-    summary = json.loads((folder / "summary.json").read_text())
+def _scenario5(summary: targets.Summary, folder: Path) -> str:
     rows = [
         (name, *(f"{summary[f'{case}.{key}']:.3g} {unit}".strip() for case in ("static", "dynamic")))
         for key, (name, unit) in SEEN.items()
@@ -165,6 +196,10 @@ def _machine(summary: targets.Summary) -> str:
 
 def _plain(value: object) -> str:
     return {True: "yes", False: "no"}[value] if isinstance(value, bool) else str(value)
+
+
+# The experiments that have a section of their own, in this order.
+SCENARIOS = {"scenario1": _scenario1, "scenario4": _scenario4, "scenario5": _scenario5}
 
 
 if __name__ == "__main__":

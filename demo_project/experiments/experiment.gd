@@ -69,6 +69,7 @@ var _camera_options := {}
 var _played := {}
 var _stops := false
 var _has_ticked := false
+var _problems := PackedStringArray()
 ## Of the files of this side.
 var _endings := [".csv", "_trace.json", "_statistics.json", "_periods.json"]
 
@@ -249,15 +250,25 @@ func _run_scene(scene: Node) -> int:
 	statistics["recorded_rows"] = recorder.get_rows()
 	statistics["lost_rows"] = recorder.get_lost_rows()
 	var problems := world.get_problems()
+	remove_child(scene)
+	problems.append_array(_problems_of_files(scene, recorder))
 	if not _has_ticked:
 		problems.append("there was not one tick")
 	for problem in problems:
 		printerr(problem)
-	remove_child(scene)
 	var written := _write("_statistics.json", statistics) and _write("_periods.json", periods)
 	if _options.inputs:
 		written = _write("_settings.json", _settings()) and written
 	return 0 if written and problems.is_empty() else 1
+
+
+## Why a file is not whole. The worlds have stopped.
+func _problems_of_files(scene: Node, recorder: HapticRecorder) -> PackedStringArray:
+	var found := _problems
+	for world: HapticWorld in scene.find_children("*", "HapticWorld", true, false):
+		found.append(world.get_inputs_problem())
+	found.append(recorder.get_problem())
+	return PackedStringArray(Array(found).filter(func(text: String) -> bool: return not text.is_empty()))
 
 
 ## Of the world that is played, and of those beside it, which it meets inside of the scene.
@@ -400,7 +411,9 @@ func _take_screenshot(time: float) -> void:
 	RenderingServer.render_loop_enabled = true
 	await RenderingServer.frame_post_draw
 	RenderingServer.render_loop_enabled = _options.watch
-	get_viewport().get_texture().get_image().save_png(_file("_%s.png" % String.num(time)))
+	var path := _file("_%s.png" % String.num(time))
+	if get_viewport().get_texture().get_image().save_png(path) != OK:
+		_problems.append("'%s' could not be written: is the disk full?" % path)
 
 
 func _write(ending: String, content: Dictionary) -> bool:

@@ -98,8 +98,15 @@ static func play(bundle: String, side: String, output: String) -> int:
 	# The rows are in their file.
 	replay = null
 	report["rows"] = _compared(rows, played_rows, report.problem == "")
-	var file := FileAccess.open(output.path_join(side + "_replay.json"), FileAccess.WRITE)
-	file.store_string(JSON.stringify(report, "  ", true, true) + "\n")
+	var path := output.path_join(side + "_replay.json")
+	var text := JSON.stringify(report, "  ", true, true) + "\n"
+	var file := FileAccess.open(path, FileAccess.WRITE)
+	if file != null:
+		file.store_string(text)
+		file.close()
+	if FileAccess.get_file_as_string(path) != text:
+		printerr("replay: '%s' could not be written: is the disk full?" % path)
+		return DAMAGED
 	print("%s: %s" % [side, _in_words(report)])
 	if not report.same or report.rows == "different":
 		return DIFFERENT

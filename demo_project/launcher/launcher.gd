@@ -1,5 +1,6 @@
 extends Control
-## Picks what is played, starts it, shows it and saves it as a bundle that can be played again.
+## Picks what is played, starts it, shows it and saves it as a bundle that can be played again; or begins a
+## study with a participant.
 
 ## The person wants back to where this was opened from; never while something is played.
 signal left
@@ -9,7 +10,8 @@ const Run := preload("res://launcher/run.gd")
 const Replay := preload("res://experiments/replay.gd")
 
 ## Each row of the form: its words, the choice, and what can be chosen: texts to values, an enumeration, or a
-## range of numbers with its step; nothing: any text.
+## range of numbers with its step and, where it is shown in another unit, what one of that is; nothing: any
+## text.
 const ROWS := [
 	["Scenario", "scenario", Launch.SCENARIOS],
 	[
@@ -25,13 +27,20 @@ const ROWS := [
 	["File with the key", "key_file", null],
 	["Delay, there and back (ms)", "delay_ms", [0, 2000, 1]],
 	["Jitter (ms)", "jitter_ms", [0, 500, 1]],
-	["Loss (share)", "loss", [0, 1, 0.01]],
+	["Loss (%)", "loss", [0, 100, 1, 0.01]],
 	["Correction", "correction", Launch.CORRECTIONS],
 	["Derivation", "derivation", Launch.DERIVATIONS],
 	["Control scheme", "control", Launch.CONTROLS],
 	["Length (s)", "seconds", [1, 3600, 1]],
 	["Folder of the bundle", "output", null],
 ]
+const SCENARIO := "A scenario"
+## By what they are called, the studies with people that can be begun here.
+const STUDIES := {
+	"A study: the just-noticeable difference of stiffness": "res://studies/stiffness.tscn",
+	"A study: two corrections, compared blind": "res://studies/schemes.tscn",
+	"A study: a path with a guide": "res://studies/guided_path.tscn",
+}
 const OF_A_NETWORK := ["side", "remote_address", "local_port", "remote_port", "key_file"]
 const OF_TWO_MACHINES := ["remote_address", "key_file"]
 
@@ -39,6 +48,7 @@ const OF_TWO_MACHINES := ["remote_address", "key_file"]
 var has_way_back := false
 var _launch := Launch.new()
 var _run: Run
+var _study: Node
 var _rows := {}
 
 @onready var _form: GridContainer = %Form
@@ -49,8 +59,12 @@ func _ready() -> void:
 	_launch.chosen.output = "user://bundles/" + Time.get_datetime_string_from_system(true).replace(":", "")
 	for row: Array in ROWS:
 		_add_row(row[0], row[1], row[2])
+	for words: String in [SCENARIO] + STUDIES.keys():
+		%What.add_item(words)
+	%What.item_selected.connect(func(index: int) -> void: choose_what(%What.get_item_text(index)))
+	%StudyForm.changed.connect(_chosen)
 	%Start.pressed.connect(_start)
-	%Stop.pressed.connect(func() -> void: _run.stop())
+	%Stop.pressed.connect(_stop)
 	%Again.pressed.connect(_play_again)
 	%Back.pressed.connect(left.emit)
 	%Back.visible = has_way_back
@@ -97,9 +111,11 @@ func _number(limits: Array, choice: String) -> SpinBox:
 	box.min_value = limits[0]
 	box.max_value = limits[1]
 	box.step = limits[2]
-	box.value = _launch.chosen[choice]
+	var unit: float = limits[3] if limits.size() > 3 else 1.0
+	box.value = _launch.chosen[choice] / unit
 	box.value_changed.connect(
-		func(value: float) -> void: _choose(choice, type_convert(value, typeof(_launch.chosen[choice])))
+		func(value: float) -> void:
+			_choose(choice, type_convert(value * unit, typeof(_launch.chosen[choice])))
 	)
 	return box
 
@@ -116,8 +132,21 @@ func _choose(choice: String, value: Variant) -> void:
 	_chosen()
 
 
+## The scenario, or one of STUDIES.
+func choose_what(words: String) -> void:
+	var is_study := STUDIES.has(words)
+	%StudyForm.visible = is_study
+	%Form.visible = not is_study
+	if is_study:
+		%StudyForm.choose(STUDIES[words])
+	_chosen()
+
+
 ## What has no part in the scenario is not asked for.
 func _chosen() -> void:
+	if %StudyForm.visible:
+		_show_problem(%StudyForm.problem())
+		return
 	var shown := {
 		"camera": _launch.chosen.scenario == 5,
 		"control": _launch.chosen.scenario != 1,
@@ -133,12 +162,16 @@ func _chosen() -> void:
 	for choice: String in shown:
 		for part: Control in _rows[choice]:
 			part.visible = shown[choice]
-	_said.text = _launch.problem()
-	%Start.disabled = not _said.text.is_empty()
+	_show_problem(_launch.problem())
+
+
+func _show_problem(problem: String) -> void:
+	_said.text = problem
+	%Start.disabled = not problem.is_empty()
 
 
 func _unhandled_key_input(event: InputEvent) -> void:
-	if has_way_back and _run == null and event.is_action_pressed(&"ui_cancel"):
+	if has_way_back and _run == null and _study == null and event.is_action_pressed(&"ui_cancel"):
 		get_viewport().set_input_as_handled()
 		left.emit()
 
@@ -148,8 +181,31 @@ func _show_state(plays: bool) -> void:
 	%Stop.visible = plays
 
 
+func _stop() -> void:
+	if _study != null:
+		_end_study()
+	else:
+		_run.stop()
+
+
+## What has been answered is in its file; a run that is not over goes on when it is begun again.
+func _end_study() -> void:
+	var kept := "The answers are in %s" % ProjectSettings.globalize_path(_study.file.folder)
+	_said.text = kept if _study.problem.is_empty() else _study.problem
+	_study.queue_free()
+	_study = null
+	_show_state(false)
+
+
 func _start() -> void:
 	_show_state(true)
+	if %StudyForm.visible:
+		_study = %StudyForm.make()
+		add_child(_study)
+		move_child(_study, 0)
+		if not _study.problem.is_empty():
+			_end_study()
+		return
 	_run = Run.new()
 	_run.finished.connect(func(message: String) -> void: _said.text = message)
 	add_child(_run)

@@ -8,16 +8,24 @@ const STYLE := "font-family='DejaVu Sans, sans-serif' font-size='13' fill='#1f29
 const AXES := {"x": "#b2443f", "y": "#3f8148", "z": "#33649c"}
 
 
-static func draw(folder: String, side: String) -> void:
+## False where one could not be written to its end.
+static func draw(folder: String, side: String) -> bool:
 	var columns := _read(folder.path_join(side + ".csv"))
 	if columns.is_empty() or (columns.time_us as PackedFloat64Array).size() < 2:
-		return
+		return true
 	for plot: Array in [
 		["force", "Force on the hand", "N", 1.0], ["hand", "Place of the hand", "mm", 1000.0]
 	]:
-		var file := FileAccess.open(folder.path_join("%s_%s.svg" % [side, plot[0]]), FileAccess.WRITE)
-		if file != null:
-			file.store_string(_svg(columns, plot[0], "%s: %s" % [side, plot[1]], plot[2], plot[3]))
+		var path := folder.path_join("%s_%s.svg" % [side, plot[0]])
+		var file := FileAccess.open(path, FileAccess.WRITE)
+		if file == null:
+			return false
+		var text := _svg(columns, plot[0], "%s: %s" % [side, plot[1]], plot[2], plot[3])
+		file.store_string(text)
+		file.close()
+		if FileAccess.get_file_as_string(path) != text:
+			return false
+	return true
 
 
 static func _read(path: String) -> Dictionary:

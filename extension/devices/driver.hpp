@@ -51,6 +51,8 @@ public:
     virtual std::string id() const = 0;
     // What a user has to do before it can work, such as homing; empty where nothing.
     virtual std::string advice() const { return {}; }
+    // What the transport said when exchange() has returned Exchange::lost; empty where nothing.
+    virtual std::string why_lost() const { return {}; }
 };
 
 }  // namespace tactus

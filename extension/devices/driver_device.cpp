@@ -42,12 +42,21 @@ DeviceSample DriverDevice::read(Nanoseconds) {
     const Nanoseconds now = monotonic_now();
     next_.read_at = newest_.at;
     next_.looked_at = now;
+    displayed_ = displayed_since(std::exchange(cuts_, work_->forces().cuts()));
     DeviceSample sample = newest_.sample;
     if (now - newest_.heard > frozen_after) {
         sample.connected = false;
         sample.velocity = Vec3(0.0);
     }
     return sample;
+}
+
+DisplayedForce DriverDevice::displayed_since(const ForceSlot::Cuts& before) {
+    DisplayedForce displayed{work_->forces().displayed_to_loop().force, 0};
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        displayed.cuts |= cuts_[i] != before[i] ? 1u << i : 0u;
+    }
+    return displayed;
 }
 
 // The tick's own time may be a virtual one; how long a force lives does not depend on it.

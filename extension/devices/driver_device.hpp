@@ -26,6 +26,7 @@ public:
     DeviceSample read(Nanoseconds now) override;
     void write(Nanoseconds now, const Vec3& force) override;
     void twist(const Vec3& torque) override { next_.torque = torque; }
+    std::optional<DisplayedForce> displayed() const override { return displayed_; }
     DeviceCapabilities capabilities() const override { return newest_.capabilities; }
 
     DriverHealth health() const { return work_->health(); }
@@ -36,9 +37,13 @@ public:
     static void when_left_behind(void (*told)(const std::string& text));
 
 private:
+    DisplayedForce displayed_since(const ForceSlot::Cuts& before);
+
     std::shared_ptr<DriverWork> work_;
     DriverWork::Reading newest_;  // haptic thread; likewise
     ForceCommand next_;           // what the next write() hands over
+    DisplayedForce displayed_;
+    ForceSlot::Cuts cuts_{};  // up to the last read()
 };
 
 }  // namespace tactus

@@ -22,6 +22,11 @@ constexpr Nanoseconds exchange_time = 5'000'000;
 // Between two times that the watchdog takes the same force away (unit: nanoseconds).
 constexpr Nanoseconds taken_again = 1'000'000;
 
+const std::string too_slow =
+    "the device gives no force: it answers fewer than " +
+    std::to_string(nanoseconds_per_second / longest_exchange) +
+    " times a second; give it a port of its own on this machine, and close what takes the processor's time";
+
 constexpr Nanoseconds part_of_rest = 10'000'000;
 
 // What decides how stiff a wall may be: the delay that the device declares, or a longer one that is measured,
@@ -129,7 +134,7 @@ DriverHealth DriverWork::health() {
     const std::lock_guard lock(health_mutex_);
     DriverHealth health = health_;
     if (health.phase == DriverHealth::Phase::running && health.text.empty()) {
-        health.text = no_force_;
+        health.text = no_force_.empty() && forces_.is_too_slow() ? too_slow : no_force_;
     }
     health.readings = count_.load(std::memory_order_relaxed);
     health.let_go = let_go_.load(std::memory_order_relaxed);
@@ -158,7 +163,9 @@ void DriverWork::run() {
         std::string problem;
         if (open(problem)) {
             run_open();
-            problem = "the device has gone: plug it in again, it goes on by itself";
+            const std::string why = driver_->why_lost();
+            problem = "the device has gone" + (why.empty() ? why : " (" + why + ")") +
+                      ": plug it in again, it goes on by itself";
             const std::lock_guard lock(health_mutex_);
             ++health_.times_lost;
         }
@@ -240,12 +247,18 @@ void DriverWork::keep_watch() {
         if (now_due.looked_at != due.looked_at || (now_due.at > at && due.looked_at != taken)) {
             continue;  // it has been renewed
         }
+        // The driver may look at any moment: it begins at nothing then, or has looked before and goes on.
+        forces_.taken();
+        if (forces_.due().looked_at != due.looked_at) {
+            continue;
+        }
         if (is_open_) {
-            driver_->let_go();
             if (due.looked_at != taken) {
-                forces_.taken(monotonic_now());
+                forces_.note_taken(monotonic_now());
                 let_go_.fetch_add(1, std::memory_order_relaxed);
             }
+            driver_->let_go();
+            forces_.taken();
         }
         taken = due.looked_at;
         next = monotonic_now() + taken_again;

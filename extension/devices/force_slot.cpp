@@ -25,13 +25,37 @@ Vec3 towards(const Vec3& from, const Vec3& to, double step) {
 
 void ForceSlot::begin(const DeviceCapabilities& device, bool is_paced) {
     const bool has_rate = is_paced && device.rate > 0.0;
-    exchange_.store(has_rate ? from_seconds(1.0 / device.rate) : 0, std::memory_order_relaxed);
+    declared_ = period_ = has_rate ? from_seconds(1.0 / device.rate) : 0;
+    exchange_.store(declared_, std::memory_order_relaxed);
+    read_.store(0, std::memory_order_release);
+    is_too_slow_.store(false, std::memory_order_relaxed);
     slew_ = device.max_slew;
     torque_slew_ = device.max_torque_slew;
-    displayed_ = {};
+    displayed_ = given_ = {};
+    given_at_ = 0;
     returns_ = true;
     end_ = 0;
     switch_on(0);
+}
+
+// While the loop writes; else drivers read as seldom as they like.
+void ForceSlot::heard(Nanoseconds read_at, Nanoseconds now) {
+    const Nanoseconds before = read_.exchange(read_at, std::memory_order_acq_rel);
+    heard_.store(now, std::memory_order_release);
+    if (before != 0 && read_at > before && written_.load(std::memory_order_acquire) > before) {
+        measure_period(read_at - before);
+    }
+}
+
+void ForceSlot::measure_period(Nanoseconds from_reading_to_reading) {
+    const Nanoseconds step = from_reading_to_reading > period_ ? quantile_up : -quantile_down;
+    period_ = std::clamp(period_ + step, declared_, longest_exchange);
+    const Nanoseconds tick = tick_.load(std::memory_order_acquire);
+    const bool goes_in_step = declared_ == 0 && period_ <= tick * 3 / 2;
+    exchange_.store(goes_in_step ? 0 : period_, std::memory_order_relaxed);
+    const bool was_too_slow = is_too_slow_.load(std::memory_order_relaxed);
+    is_too_slow_.store(period_ >= (was_too_slow ? longest_exchange * 4 / 5 : longest_exchange),
+                       std::memory_order_relaxed);
 }
 
 Vec3 ForceSlot::living(Nanoseconds now) {
@@ -39,38 +63,41 @@ Vec3 ForceSlot::living(Nanoseconds now) {
     const ForceCommand& command = commands_.front();
     const ForceLife life = this->life();
     const Nanoseconds heard = heard_.load(std::memory_order_acquire);
-    const bool is_safe = tick_.load(std::memory_order_acquire) > 0 && command.written_at != 0;
+    const bool is_safe = tick_.load(std::memory_order_acquire) > 0 && command.written_at != 0 &&
+                         !is_too_slow_.load(std::memory_order_relaxed);
     const Nanoseconds end = std::min(command.written_at + life.written, heard + life.heard);
     const bool lives = lives_ = is_safe && now <= end;
     if (is_new) {
         aim_reading(command);
     }
-    if (is_taken_.exchange(false, std::memory_order_acq_rel)) {
-        displayed_ = {};
+    // In this order, and taken() before due(): of a look and a watchdog at the same time one sees the other.
+    looked_.store(now);
+    if (is_taken_.exchange(false)) {
+        displayed_ = given_ = {};
         returns_ = true;
     } else if (!lives && displayed_ != Wrench{}) {
         cut(now > command.written_at + life.written ? ForceCut::loop_silent : ForceCut::device_silent);
     }
     const Wrench wanted = lives ? Wrench{command.force, command.torque} : Wrench{};
     if (!lives) {
-        displayed_ = {};
+        displayed_ = given_ = {};
         returns_ = true;
     } else if (returns_) {
-        const Nanoseconds since = now - looked_.load(std::memory_order_relaxed);
+        // From what the device has: not every look is followed by a packet.
+        const Nanoseconds since = now - given_at_;
         const double seconds = to_seconds(std::clamp<Nanoseconds>(since, 1, longest_return_step));
-        displayed_.force = towards(displayed_.force, wanted.force, slew_ * seconds);
-        displayed_.torque = towards(displayed_.torque, wanted.torque, torque_slew_ * seconds);
+        displayed_.force = towards(given_.force, wanted.force, slew_ * seconds);
+        displayed_.torque = towards(given_.torque, wanted.torque, torque_slew_ * seconds);
         returns_ = displayed_ != wanted;
     } else {
         displayed_ = wanted;
     }
     end_ = displayed_ != Wrench{} ? end : 0;
-    watch(now);
+    watch();
     return displayed_.force;
 }
 
-void ForceSlot::watch(Nanoseconds now) {
-    looked_.store(now, std::memory_order_release);
+void ForceSlot::watch() {
     switch_on(displayed_ != Wrench{} ? 1 : 0);
 }
 
@@ -86,6 +113,8 @@ void ForceSlot::switch_on(std::int64_t on) {
 }
 
 void ForceSlot::given(Nanoseconds now) {
+    given_ = displayed_;
+    given_at_ = now;
     const ForceCommand& command = commands_.front();
     if (command.read_at != 0 && command.read_at != measured_) {
         measured_ = command.read_at;
@@ -96,6 +125,7 @@ void ForceSlot::given(Nanoseconds now) {
                    std::memory_order_relaxed);
     }
     shown_.publish({displayed_, now});
+    to_loop_.publish(displayed_);
 }
 
 // The loop has looked: was the newest reading there?
@@ -108,7 +138,8 @@ void ForceSlot::aim_reading(const ForceCommand& command) {
 
 Nanoseconds ForceSlot::next_reading() const {
     const ForceCommand& command = commands_.front();
-    return command.looked_at + tick_.load(std::memory_order_relaxed) - lead_;
+    const Nanoseconds tick = tick_.load(std::memory_order_relaxed);
+    return command.looked_at == 0 || tick == 0 ? 0 : command.looked_at + tick - lead_;
 }
 
 // The thread that sends forces may still be at it: it begins anew with its next one.
@@ -126,16 +157,15 @@ ForceSlot::Due ForceSlot::due() const {
         return {};
     }
     const ForceLife life = this->life();
-    const Nanoseconds looked = looked_.load(std::memory_order_acquire);
+    const Nanoseconds looked = looked_.load();
     const Nanoseconds written = written_.load(std::memory_order_acquire);
     return {looked, std::min(written + life.written, looked + life.sent) + life.grace};
 }
 
 // Of one that the driver has not cut itself: the reason is that it was late, or that the loop was.
-void ForceSlot::taken(Nanoseconds now) {
+void ForceSlot::note_taken(Nanoseconds now) {
     const bool is_loop_silent = now > written_.load(std::memory_order_acquire) + life().written;
     cut(is_loop_silent ? ForceCut::loop_silent : ForceCut::driver_stuck);
-    is_taken_.store(true, std::memory_order_release);
 }
 
 void ForceSlot::end_wait() {

@@ -44,15 +44,20 @@ public:
         written_signal_.wake();
     }
 
+    // What the device was given last.
+    Wrench displayed_to_loop() {
+        to_loop_.refresh();
+        return is_on_.load(std::memory_order_acquire) == 1 ? to_loop_.front() : Wrench{};
+    }
+
     // --- driver: see above
 
     // The device is open, or open anew: its force begins at nothing. `is_paced`: it keeps a time of its own.
     void begin(const DeviceCapabilities& device, bool is_paced);
     // A reading that was asked for then has come.
-    void heard(Nanoseconds read_at, Nanoseconds now) {
-        read_.store(read_at, std::memory_order_release);
-        heard_.store(now, std::memory_order_release);
-    }
+    void heard(Nanoseconds read_at, Nanoseconds now);
+    // Readings come so seldom that no force is given. Any thread.
+    bool is_too_slow() const { return is_too_slow_.load(std::memory_order_relaxed); }
 
     // Returns when the loop has written what living() has not yet seen, one of the files is ready, or it is
     // `until`.
@@ -90,8 +95,10 @@ public:
     };
     Due due() const;
     void wait_for_force() const { wait_while(is_on_, 0); }
-    // The force was taken away past the driver.
-    void taken(Nanoseconds now);
+    // The force is taken away past the driver, which begins anew.
+    void taken() { is_taken_.store(true); }
+    // For the owner: why, once for each silence.
+    void note_taken(Nanoseconds now);
     // Wakes it, since no force will come.
     void end_wait();
 
@@ -111,25 +118,32 @@ public:
 
 private:
     ForceLife life() const { return force_life(tick_.load(std::memory_order_acquire), exchange_); }
-    void watch(Nanoseconds now);
+    void watch();
     void switch_on(std::int64_t on);
     void cut(ForceCut why);
     void aim_reading(const ForceCommand& command);
+    void measure_period(Nanoseconds from_reading_to_reading);
 
     TripleBuffer<ForceCommand> commands_;
     TripleBuffer<Displayed> shown_;
+    TripleBuffer<Wrench> to_loop_;  // of the same
     WakeSignal written_signal_;
     DurationHistogram delays_;
     std::atomic<Nanoseconds> tick_{1'000'000};  // 0: no force
     std::atomic<Nanoseconds> written_{0}, read_{0}, heard_{0}, looked_{0};
     std::atomic<std::int64_t> is_on_{0};  // 1: the device gives a force; -1: none will come
-    std::atomic<bool> is_taken_{false};
+    std::atomic<bool> is_taken_{false}, is_too_slow_{false};
     std::array<std::atomic<std::uint64_t>, force_cut_count> cuts_{};
 
-    // Of the driver.
+    // Of the driver: the period of the device's own, which is what it declares, or a longer one that is
+    // measured; 0: it goes in step with the loop.
     std::atomic<Nanoseconds> exchange_{0};
+    Nanoseconds declared_ = 0;
+    Nanoseconds period_ = 0;                 // of a hundred readings, ninety-nine follow within that
     double slew_ = 0.0, torque_slew_ = 0.0;  // (units: newtons, newton meters per second)
-    Wrench displayed_;
+    Wrench displayed_;                       // what living() has returned
+    Wrench given_;                           // what of that the device has been given, last
+    Nanoseconds given_at_ = 0;               // (on the steady clock)
     bool lives_ = false;
     bool returns_ = true;  // the force grows from nothing
     Nanoseconds end_ = 0;

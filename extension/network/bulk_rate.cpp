@@ -29,7 +29,7 @@ void BulkRate::adapt(Endpoint& link, Nanoseconds now, bool wanted) {
     if (!way.known || way.as_of <= changed_at_ + shows_after) {
         return;
     }
-    if (way.is_longer_than(queue)) {
+    if (way.is_longer_than(queue, true)) {
         met_a_queue_ = true;
         if (!way.falls()) {
             rate_ = std::max(min_rate, 0.5 * rate_);

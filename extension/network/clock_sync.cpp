@@ -21,6 +21,11 @@ Nanoseconds to_nanoseconds(double value) {
     return static_cast<Nanoseconds>(std::llround(value));
 }
 
+// The most that two clocks drift apart in that time.
+Nanoseconds most_drift(Nanoseconds span) {
+    return to_nanoseconds(fastest_drift * static_cast<double>(std::abs(span)));
+}
+
 }  // namespace
 
 bool ClockSync::add(const ClockExchange& exchange) {
@@ -35,14 +40,35 @@ bool ClockSync::add(const ClockExchange& exchange) {
     }
     keep(sample);
     fit_line();
+    note_bounds(sample);
     note_delay(sample.delay);
     figures_.known = true;
     ++figures_.exchanges;
-    figures_.offset = offset_at(sample.here);
     figures_.drift = drift_;
     figures_.least_delay = best().delay;
-    figures_.uncertainty = figures_.least_delay / 2;
+    figures_ = figures_at(sample.here);
     return true;
+}
+
+ClockFigures ClockSync::figures_at(Nanoseconds here) const {
+    ClockFigures now = figures_;
+    if (now.known) {
+        now.offset = offset_at(here);
+        now.uncertainty = std::max(most_ - now.offset, now.offset - least_) + most_drift(here - last_);
+    }
+    return now;
+}
+
+// The true offset is within half its delay of what each exchange says, and drifts by a bounded amount since.
+void ClockSync::note_bounds(const Kept& newest) {
+    last_ = newest.here;
+    least_ = newest.offset - newest.delay / 2;
+    most_ = newest.offset + newest.delay / 2;
+    for (std::size_t i = 0; i < count_; ++i) {
+        const Nanoseconds room = kept_[i].delay / 2 + most_drift(last_ - kept_[i].here);
+        least_ = std::max(least_, kept_[i].offset - room);
+        most_ = std::min(most_, kept_[i].offset + room);
+    }
 }
 
 void ClockSync::forget() {
@@ -74,8 +100,7 @@ bool ClockSync::contradicts(const Kept& sample) const {
     if (sample.here < newest.here - stretch_) {
         return true;
     }
-    const auto drifted =
-        static_cast<Nanoseconds>(fastest_drift * static_cast<double>(std::abs(sample.here - anchor_.here)));
+    const Nanoseconds drifted = most_drift(sample.here - anchor_.here);
     const Nanoseconds room = sample.delay / 2 + best().delay / 2 + drifted + stamp_error;
     return std::abs(sample.offset - offset_at(sample.here)) > room;
 }

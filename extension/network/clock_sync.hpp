@@ -5,7 +5,8 @@
 //     ((t1 - t0) + (t2 - t3)) / 2,     with a delay there and back of (t3 - t0) - (t2 - t1);
 // whatever the delays were, the error is at most half of that (Mills, RFC 5905). So the exchanges with the
 // least delay are the ones to believe: the best one of each stretch of time is kept, and a line through those
-// gives offset and drift.
+// gives offset and drift. Each kept exchange bounds the true offset as well; the bounds widen by what two
+// clocks may drift apart since, and the farther one from the line is its uncertainty.
 //
 // Plain arithmetic: reads no clock, allocates nothing, belongs to one thread.
 #pragma once
@@ -28,9 +29,9 @@ struct ClockExchange {
 
 struct ClockFigures {
     bool known = false;            // false before the first exchange: all else is 0
-    Nanoseconds offset = 0;        // far clock minus this one, at the last exchange
+    Nanoseconds offset = 0;        // far clock minus this one, when the figures are asked for
     double drift = 0.0;            // seconds that the far clock gains a second
-    Nanoseconds uncertainty = 0;   // of the offset: half the least delay of late
+    Nanoseconds uncertainty = 0;   // most that the offset may be wrong by, however uneven the delays are
     Nanoseconds least_delay = 0;   // there and back, of late
     Nanoseconds latest_delay = 0;  // there and back
     double mean_delay = 0.0;       // smoothed over about 16 exchanges (unit: nanoseconds)
@@ -52,7 +53,9 @@ public:
     // The far side has another clock now.
     void forget();
 
+    // As of the last exchange, and as of `here` on this side's clock, not before it.
     const ClockFigures& figures() const { return figures_; }
+    ClockFigures figures_at(Nanoseconds here) const;
 
     // What the far clock shows when this one shows `here`, and the other way round. 0 offset before the first
     // exchange.
@@ -73,6 +76,7 @@ private:
     void start_anew();
     void keep(const Kept& sample);
     const Kept& best() const;
+    void note_bounds(const Kept& newest);
     void fit_line();
     void note_delay(Nanoseconds delay);
 
@@ -83,6 +87,8 @@ private:
     Nanoseconds stretch_began_ = 0;
     Kept anchor_;  // a point of the line
     double drift_ = 0.0;
+    Nanoseconds last_ = 0;              // middle of the last exchange
+    Nanoseconds least_ = 0, most_ = 0;  // that the offset can have been then
     ClockFigures figures_;
 };
 

@@ -88,7 +88,6 @@ bool Endpoint::admit(const PacketHeader& header) {
             newest_at_ = now_;
             break;
     }
-    ++epoch_packets_;
     admitted_at_ = now_;
     statistics_.missing = window_.missing();
     return true;
@@ -157,8 +156,8 @@ void Endpoint::meet(std::uint64_t epoch) {
     statistics_.peer = PeerState::one_way;
     window_.forget();
     hello_sequence_ = bye_sequence_ = 0;
-    epoch_packets_ = reported_packets_ = reported_sequence_ = 0;
-    statistics_.lost_there = 0.0;
+    reported_packets_ = reported_sequence_ = 0;
+    statistics_.lost_there = lost_there_ = 0.0;
     clock_.forget();
     queue_there_.forget();
     statistics_.clock = {};
@@ -228,9 +227,11 @@ void Endpoint::note_report(const Hello& hello) {
         hello.heard_packets >= reported_packets_) {
         const auto sent = static_cast<double>(hello.heard_sequence - reported_sequence_);
         const auto came = static_cast<double>(hello.heard_packets - reported_packets_);
-        const double lost = reported_sequence_ == 0 ? 0.0 : std::clamp(1.0 - came / sent, 0.0, 1.0);
+        // Below 0 where what was overtaken before comes: only so does the mean count it once.
+        const double lost = reported_sequence_ == 0 ? 0.0 : std::clamp(1.0 - came / sent, -1.0, 1.0);
         const double share = sent / (sent + as_much_as_all_before);
-        statistics_.lost_there += share * (lost - statistics_.lost_there);
+        lost_there_ += share * (lost - lost_there_);
+        statistics_.lost_there = std::max(lost_there_, 0.0);
     }
     reported_sequence_ = hello.heard_sequence;
     reported_packets_ = hello.heard_packets;
@@ -287,10 +288,11 @@ bool Endpoint::send(const Message& message) {
 }
 
 void Endpoint::end_tick() {
+    has_said_hello_ = !leaves_ && now_ >= next_hello_;
     if (leaves_) {
         return;
     }
-    if (now_ >= next_hello_) {
+    if (has_said_hello_) {
         say_hello();
         next_hello_ = now_ + settings_.hello_every;
     }
@@ -300,6 +302,7 @@ void Endpoint::end_tick() {
     } else if (now_ < often_until_) {
         next_request_ = std::min(next_request_, now_ + often_every);
     }
+    statistics_.clock = clock_.figures_at(local_now_);
     measure_rates(now_);
 }
 
@@ -308,8 +311,9 @@ void Endpoint::say_hello() {
     own_hello_.scenario = settings_.scenario;
     own_hello_.period = settings_.period;
     own_hello_.heard_epoch = hears_peer() ? statistics_.peer_epoch : 0;
-    own_hello_.heard_packets = epoch_packets_;
-    own_hello_.heard_sequence = window_.newest();
+    const SequenceWindow::Settled settled = window_.settled();
+    own_hello_.heard_packets = settled.packets;
+    own_hello_.heard_sequence = settled.sequence;
     send(own_hello_);
 }
 
@@ -320,9 +324,14 @@ void Endpoint::leave() {
     leaves_ = true;
 }
 
+// That there is more to come is said before it comes: nothing that moves falls before all is described.
 void Endpoint::set_world(std::uint32_t object_count, const Vec3& gravity) {
-    own_hello_.object_count = object_count;
+    const bool is_more = object_count > std::exchange(own_hello_.object_count, object_count);
     own_hello_.gravity = glm::clamp(gravity, -plausible::max_gravity, plausible::max_gravity);
+    if (is_more && hears_peer() && !leaves_) {
+        say_hello();
+        next_hello_ = now_ + settings_.hello_every;
+    }
 }
 
 void Endpoint::measure_rates(Nanoseconds now) {

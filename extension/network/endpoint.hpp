@@ -113,6 +113,9 @@ public:
     // What this side's clock shows at `now` of the session: the time that belongs into messages.
     Nanoseconds local_time(Nanoseconds now) const { return settings_.skew.shown_at(now); }
 
+    // In the last end_tick().
+    bool has_said_hello() const { return has_said_hello_; }
+
     void set_scenario(std::uint8_t scenario) { settings_.scenario = scenario; }
     void set_skew(const ClockSkew& skew) { settings_.skew = skew; }
     void set_world(std::uint32_t object_count, const Vec3& gravity);
@@ -149,11 +152,11 @@ private:
     LinkStatistics statistics_;
     ClockSync clock_;
     QueueWatch queue_there_;
+    double lost_there_ = 0.0;  // smoothed; below 0 while what was overtaken comes
     SequenceWindow window_;
     Hello own_hello_;
-    std::uint64_t hello_sequence_ = 0;  // of that
-    std::uint64_t bye_sequence_ = 0;    // 0: none
-    std::uint64_t epoch_packets_ = 0;   // of the far side's present epoch that have come
+    std::uint64_t hello_sequence_ = 0;                            // of that
+    std::uint64_t bye_sequence_ = 0;                              // 0: none
     std::uint64_t reported_packets_ = 0, reported_sequence_ = 0;  // by its last hello
     Received received_;
     std::array<std::byte, max_datagram_bytes> buffer_;
@@ -184,6 +187,7 @@ private:
     bool one_way_known_ = false;
     bool ticked_ = false;
     bool leaves_ = false;
+    bool has_said_hello_ = false;
 
     Nanoseconds rates_since_ = 0;
     std::uint64_t rate_base_[4] = {};  // packets and bytes sent, received

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <cstdio>
 
 namespace tactus {
 namespace {
@@ -67,6 +69,53 @@ BurstLoss bursts(double share, double length) {
     const double enter = leave * share / (1.0 - share);
     // Bursts too short to lose so much cannot be entered more often than always: they get longer.
     return enter <= 1.0 ? BurstLoss{enter, leave, 1.0} : BurstLoss{1.0, (1.0 - share) / share, 1.0};
+}
+
+namespace {
+
+// The mean of max(delay + jitter x, 0), x even in [-1, 1] or a standard normal deviate (unit: milliseconds).
+double mean_delay_ms(JitterShape shape, double delay, double jitter) {
+    if (shape == JitterShape::uniform) {
+        return jitter <= delay ? delay : (delay + jitter) * (delay + jitter) / (4.0 * jitter);
+    }
+    const double ratio = delay / jitter;
+    constexpr double root_two_pi = 2.506628274631000502;
+    return delay * 0.5 * std::erfc(-ratio / std::sqrt(2.0)) +
+           jitter * std::exp(-0.5 * ratio * ratio) / root_two_pi;
+}
+
+std::string in_ms(double milliseconds) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g ms", milliseconds);
+    return text;
+}
+
+}  // namespace
+
+std::vector<std::string> notes_on(const LinkConditions& conditions, double burst_share, double burst_length) {
+    std::vector<std::string> notes;
+    const double delay = 1e3 * to_seconds(conditions.delay), jitter = 1e3 * to_seconds(conditions.jitter);
+    const bool goes_below =
+        jitter > 0.0 && ((conditions.shape == JitterShape::uniform && jitter > delay) ||
+                         (conditions.shape == JitterShape::normal && 3.0 * jitter > delay));
+    if (goes_below) {
+        notes.push_back("no delay is below 0: with 'delay' " + in_ms(delay) + " and 'jitter' " +
+                        in_ms(jitter) + " the mean is " +
+                        in_ms(mean_delay_ms(conditions.shape, delay, jitter)));
+    }
+    if (conditions.keep_order && (jitter > 0.0 || conditions.shape == JitterShape::trace)) {
+        notes.push_back(
+            "with 'keep_order' a datagram waits for those before it: the mean delay is more than 'delay'");
+    }
+    const double least = burst_share < 1.0 ? burst_share / (1.0 - burst_share) : 1.0;
+    if (burst_share > 0.0 && burst_length < least) {
+        char text[160];
+        std::snprintf(text, sizeof text,
+                      "bursts of %.3g datagrams cannot lose a share of %.3g: they are %.3g long",
+                      burst_length, burst_share, least);
+        notes.push_back(text);
+    }
+    return notes;
 }
 
 }  // namespace tactus

@@ -6,11 +6,10 @@
 
 namespace tactus {
 
-// The random numbers of one datagram: always the same count, whatever the conditions make of them.
+// The random numbers of one datagram, the same whatever the conditions make of them.
 struct LinkEmulator::Luck {
     double loss, turn, burst_loss, duplication, reordering;  // in [0, 1)
-    double jitter_unit, jitter_normal;                       // of the datagram
-    double copy_unit, copy_normal;                           // of its copy
+    double jitter, copy;  // of the datagram and of its copy, as a share of LinkConditions::jitter
 };
 
 namespace {
@@ -18,38 +17,74 @@ namespace {
 constexpr int max_at_once = 1024;
 constexpr Nanoseconds beginning = std::numeric_limits<Nanoseconds>::min();
 
-// splitmix64 (Steele, Lea & Flood 2014), begun anew for every datagram from the seed and its number.
+// ln x for x > 0, to the last digits. Sums and quotients are rounded alike everywhere, which a library's
+// logarithm is not: the same seed is the same network on every system. With x = m 2^e and s = (m - 1) / (m +
+// 1), ln m = 2 (s + s^3 / 3 + s^5 / 5 + ...), |s| < 0.172.
+double natural_logarithm(double x) {
+    constexpr double ln_2 = 0.693147180559945309417;
+    int exponent = 0;
+    double mantissa = std::frexp(x, &exponent);  // in [1/2, 1)
+    if (mantissa < 0.70710678118654752440) {
+        mantissa *= 2.0;
+        --exponent;
+    }
+    const double s = (mantissa - 1.0) / (mantissa + 1.0);
+    const double square = s * s;
+    double sum = 0.0;
+    for (int k = 21; k >= 1; k -= 2) {
+        sum = sum * square + 1.0 / k;
+    }
+    return 2.0 * s * sum + exponent * ln_2;
+}
+
+// splitmix64 (Steele, Lea & Flood 2014), begun anew for every datagram from the seed and its number, and for
+// each `stream` of numbers of which there may be any count.
 class Dice {
 public:
-    Dice(std::uint64_t seed, std::uint64_t number) : state_(seed ^ mixed(number)) {}
+    Dice(std::uint64_t seed, std::uint64_t number, std::uint64_t stream = 0)
+        : state_(seed ^ scattered(number) ^ scattered(stream)) {}
 
     double unit() {
         state_ += 0x9e3779b97f4a7c15u;
-        return static_cast<double>(mixed(state_) >> 11) * 0x1p-53;
+        return static_cast<double>(scattered(state_) >> 11) * 0x1p-53;
     }
 
-    // The sum of twelve has mean 6 and variance 1, and its bits do not depend on a library's logarithm.
+    // Mean 0, variance 1, by the polar method (Marsaglia and Bray 1964).
     double normal() {
-        double sum = -6.0;
-        for (int i = 0; i < 12; ++i) {
-            sum += unit();
+        for (;;) {
+            const double x = 2.0 * unit() - 1.0;
+            const double y = 2.0 * unit() - 1.0;
+            const double square = x * x + y * y;
+            if (square > 0.0 && square < 1.0) {
+                return x * std::sqrt(-2.0 * natural_logarithm(square) / square);
+            }
         }
-        return sum;
     }
 
 private:
-    static std::uint64_t mixed(std::uint64_t z) {
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-        return z ^ (z >> 31);
-    }
-
     std::uint64_t state_;
 };
 
 // Pareto with exponent 4 has a finite variance. u^(-1/4) - 1 has mean 1/3 for u even in (0, 1].
 double heavy_tail(double unit) {
     return 3.0 * (1.0 / std::sqrt(std::sqrt(1.0 - unit)) - 1.0);
+}
+
+// What one datagram is later by, as a share of the jitter. Each has a stream of its own, so that nothing else
+// depends on the shape.
+double jitter_share(JitterShape shape, std::uint64_t seed, std::uint64_t number, std::uint64_t stream) {
+    Dice dice(seed, number, stream);
+    switch (shape) {
+        case JitterShape::uniform:
+            return 2.0 * dice.unit() - 1.0;
+        case JitterShape::normal:
+            return dice.normal();
+        case JitterShape::heavy_tail:
+            return heavy_tail(dice.unit());
+        case JitterShape::trace:
+            break;
+    }
+    return 0.0;
 }
 
 }  // namespace
@@ -60,12 +95,9 @@ LinkEmulator::LinkEmulator(Link& inner, const LinkConditions& conditions, std::u
       conditions_(conditions),
       changed_(conditions),
       seed_(seed),
-      slots_(std::max<std::size_t>(capacity, 2)) {
-    free_.reserve(slots_.size());
-    under_way_.reserve(slots_.size());
-    for (std::size_t slot = slots_.size(); slot > 0; --slot) {
-        free_.push_back(static_cast<std::uint32_t>(slot - 1));
-    }
+      capacity_(std::max<std::size_t>(capacity, 2)),
+      store_(capacity_ + capacity_ / 2) {
+    under_way_.reserve(capacity_);
     line_free_ = newest_due_ = beginning;
 }
 
@@ -78,36 +110,30 @@ ReceivedDatagram LinkEmulator::receive(std::span<std::byte> into, Nanoseconds no
         std::pop_heap(under_way_.begin(), under_way_.end(), later);
         const UnderWay first = under_way_.back();
         under_way_.pop_back();
-        free_.push_back(first.slot);
-        const Datagram& datagram = slots_[first.slot];
-        if (datagram.size <= into.size()) {
-            std::memcpy(into.data(), datagram.bytes.data(), datagram.size);
+        const bool fits = first.bytes <= into.size();
+        store_.take(first.place, first.bytes, fits ? into.first(first.bytes) : std::span<std::byte>());
+        if (fits) {
             ++counts_.delivered;
-            return {datagram.size, first.due};
+            return {first.bytes, first.due};
         }
         ++counts_.no_room;
     }
     return {};
 }
 
-// Takes over what the link below has; a flood is spread over ticks. One slot stays free to look at the next
-// datagram in.
+// Takes over what the link below has; a flood is spread over ticks.
 void LinkEmulator::admit(Nanoseconds now) {
     for (int i = 0; i < max_at_once; ++i) {
-        const std::uint32_t slot = free_.back();
-        Datagram& datagram = slots_[slot];
-        const ReceivedDatagram received = inner_.receive(datagram.bytes, now);
+        const ReceivedDatagram received = inner_.receive(incoming_, now);
         if (!received) {
             return;
         }
         ++counts_.arrived;
-        datagram.size = received.bytes;
-        datagram.arrived = received.arrived;
-        decide(slot);
+        decide(std::span(incoming_).first(received.bytes), received.arrived);
     }
 }
 
-void LinkEmulator::decide(std::uint32_t slot) {
+void LinkEmulator::decide(std::span<const std::byte> datagram, Nanoseconds arrived) {
     Dice dice(seed_, counts_.arrived);
     Luck luck;
     luck.loss = dice.unit();
@@ -115,36 +141,37 @@ void LinkEmulator::decide(std::uint32_t slot) {
     luck.burst_loss = dice.unit();
     luck.duplication = dice.unit();
     luck.reordering = dice.unit();
-    luck.jitter_unit = dice.unit();
-    luck.jitter_normal = dice.normal();
-    luck.copy_unit = dice.unit();
-    luck.copy_normal = dice.normal();
+    luck.jitter = jitter_share(conditions_.shape, seed_, counts_.arrived, 1);
+    luck.copy = jitter_share(conditions_.shape, seed_, counts_.arrived, 2);
 
-    Nanoseconds leaves = slots_[slot].arrived;
-    if (is_lost(luck)) {
+    Nanoseconds leaves = arrived;
+    const std::optional<Nanoseconds> recorded = recorded_delay();
+    // The burst model goes on with each datagram, also with those that the trace has lost.
+    if (is_lost(luck) || recorded == DelayTrace::lost) {
         ++counts_.lost;
         return;
     }
-    if (!pass_narrow_place(slots_[slot].size, leaves)) {
+    if (!pass_narrow_place(datagram.size() + inner_.overhead(), leaves)) {
         ++counts_.squeezed;
         return;
     }
-    Nanoseconds delay = jittered(luck.jitter_unit, luck.jitter_normal);
-    if (conditions_.shape == JitterShape::trace && conditions_.trace != nullptr) {
-        const Nanoseconds recorded =
-            conditions_.trace->delays[trace_at_++ % conditions_.trace->delays.size()];
-        if (recorded == DelayTrace::lost) {
-            ++counts_.lost;
-            return;
-        }
-        delay = conditions_.delay + recorded;
-    }
     const bool held_back = luck.reordering < conditions_.reordering;
     counts_.held_back += held_back ? 1 : 0;
-    schedule(slot, leaves, delay, held_back);
+    const Nanoseconds on_top = recorded.value_or(0);
+    schedule(datagram, leaves, delayed_by(luck.jitter) + on_top, held_back);
     if (luck.duplication < conditions_.duplication) {
-        copy(slot, leaves, luck);
+        ++counts_.duplicated;
+        schedule(datagram, leaves, delayed_by(luck.copy) + on_top, false);
     }
+}
+
+// Of the datagram that has arrived last: one entry for each, lost or not. A copy takes as long.
+std::optional<Nanoseconds> LinkEmulator::recorded_delay() const {
+    if (conditions_.shape != JitterShape::trace || conditions_.trace == nullptr) {
+        return std::nullopt;
+    }
+    const std::vector<Nanoseconds>& delays = conditions_.trace->delays;
+    return delays[(counts_.arrived - 1) % delays.size()];
 }
 
 bool LinkEmulator::is_lost(const Luck& luck) {
@@ -166,32 +193,17 @@ bool LinkEmulator::pass_narrow_place(std::size_t bytes, Nanoseconds& time) {
     return true;
 }
 
-Nanoseconds LinkEmulator::jittered(double unit, double normal) const {
-    double share = 0.0;
-    switch (conditions_.shape) {
-        case JitterShape::uniform:
-            share = 2.0 * unit - 1.0;
-            break;
-        case JitterShape::normal:
-            share = normal;
-            break;
-        case JitterShape::heavy_tail:
-            share = heavy_tail(unit);
-            break;
-        case JitterShape::trace:
-            break;
-    }
+Nanoseconds LinkEmulator::delayed_by(double share) const {
     const auto extra = static_cast<Nanoseconds>(share * static_cast<double>(conditions_.jitter));
     return std::max<Nanoseconds>(conditions_.delay + extra, 0);
 }
 
-// Takes `slot`, which is the last free one.
-void LinkEmulator::schedule(std::uint32_t slot, Nanoseconds leaves, Nanoseconds delay, bool held_back) {
-    if (free_.size() == 1) {
+void LinkEmulator::schedule(std::span<const std::byte> datagram, Nanoseconds leaves, Nanoseconds delay,
+                            bool held_back) {
+    if (under_way_.size() == capacity_ || !store_.has_room_for(datagram.size())) {
         ++counts_.no_room;
         return;
     }
-    free_.pop_back();
     Nanoseconds due = leaves + delay;
     if (held_back) {
         due += conditions_.reorder_by;
@@ -199,18 +211,9 @@ void LinkEmulator::schedule(std::uint32_t slot, Nanoseconds leaves, Nanoseconds 
         due = std::max(due, newest_due_);
     }
     newest_due_ = held_back ? newest_due_ : std::max(newest_due_, due);
-    under_way_.push_back({due, scheduled_++, slot});
+    under_way_.push_back(
+        {due, scheduled_++, store_.put(datagram), static_cast<std::uint32_t>(datagram.size())});
     std::push_heap(under_way_.begin(), under_way_.end(), later);
-}
-
-void LinkEmulator::copy(std::uint32_t slot, Nanoseconds leaves, const Luck& luck) {
-    const std::uint32_t twin = free_.back();
-    if (twin == slot) {
-        return;  // the original found no room either
-    }
-    slots_[twin] = slots_[slot];
-    ++counts_.duplicated;
-    schedule(twin, leaves, jittered(luck.copy_unit, luck.copy_normal), false);
 }
 
 }  // namespace tactus

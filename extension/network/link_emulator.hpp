@@ -9,10 +9,14 @@
 // taken in the constructor.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "core/ports/link.hpp"
+#include "network/datagram_store.hpp"
 #include "network/link_conditions.hpp"
 #include "network/memory_link.hpp"
 #include "realtime/triple_buffer.hpp"
@@ -31,10 +35,10 @@ struct EmulatorCounts {
 
 class LinkEmulator final : public Link {
 public:
-    // `inner` must outlive the emulator. `capacity`: datagrams under way at once, 1250 bytes each; two
-    // thousand a second for half a second are a thousand.
+    // `inner` must outlive the emulator. `seed`: see luck_of(). `capacity`: datagrams under way at once; two
+    // thousand a second, delayed by ten seconds and up to ten more of jitter, are forty thousand.
     LinkEmulator(Link& inner, const LinkConditions& conditions, std::uint64_t seed,
-                 std::size_t capacity = 4096);
+                 std::size_t capacity = 65'536);
 
     // From the next receive() on; what is under way already keeps its fate.
     void change(const LinkConditions& conditions) { changed_.publish(conditions); }
@@ -51,7 +55,8 @@ private:
     struct UnderWay {
         Nanoseconds due = 0;
         std::uint64_t number = 0;  // earlier ones first where two are due at once
-        std::uint32_t slot = 0;
+        std::uint32_t place = 0;   // in store_
+        std::uint32_t bytes = 0;
     };
     struct Luck;
 
@@ -60,12 +65,12 @@ private:
     }
 
     void admit(Nanoseconds now);
-    void decide(std::uint32_t slot);
+    void decide(std::span<const std::byte> datagram, Nanoseconds arrived);
     bool is_lost(const Luck& luck);
     bool pass_narrow_place(std::size_t bytes, Nanoseconds& time);
-    Nanoseconds jittered(double unit, double normal) const;
-    void schedule(std::uint32_t slot, Nanoseconds leaves, Nanoseconds delay, bool held_back);
-    void copy(std::uint32_t slot, Nanoseconds leaves, const Luck& luck);
+    std::optional<Nanoseconds> recorded_delay() const;
+    Nanoseconds delayed_by(double share) const;
+    void schedule(std::span<const std::byte> datagram, Nanoseconds leaves, Nanoseconds delay, bool held_back);
 
     Link& inner_;
     LinkConditions conditions_;
@@ -73,12 +78,12 @@ private:
     std::uint64_t seed_;
     EmulatorCounts counts_;
 
-    std::vector<Datagram> slots_;
-    std::vector<std::uint32_t> free_;
+    std::size_t capacity_;
+    DatagramStore store_;
+    std::array<std::byte, max_datagram_bytes> incoming_;
     std::vector<UnderWay> under_way_;  // a heap: the next one due first
 
     std::uint64_t scheduled_ = 0;
-    std::size_t trace_at_ = 0;
     bool bad_ = false;            // the burst model's state
     Nanoseconds line_free_ = 0;   // when the narrow place has sent what it has
     Nanoseconds newest_due_ = 0;  // of those that keep their order

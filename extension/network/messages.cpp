@@ -1,5 +1,7 @@
 #include "network/messages.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <glm/common.hpp>
 #include <numeric>
@@ -22,7 +24,15 @@ consteval std::uint8_t type_of() {
     }(static_cast<Message*>(nullptr));
 }
 static_assert(type_of<Hello>() == 1 && type_of<DiscoveryFragment>() == 5 && type_of<Ghosts>() == 11 &&
-              type_of<ObjectEstimates>() == 12 && type_of<WrenchSamples>() == 13);
+              type_of<ObjectEstimates>() == 12 && type_of<WrenchSamples>() == 13 &&
+              type_of<SampleAcknowledgements>() == 14 && type_of<Terms>() == 15);
+
+// A packet is of the version that its kind came with: who speaks an older one refuses it, and no other.
+constexpr std::uint8_t version_of(std::uint8_t type) {
+    return type < type_of<SampleAcknowledgements>() ? 3 : 4;
+}
+static_assert(version_of(type_of<WrenchSamples>()) == oldest_wire_version &&
+              version_of(type_of<Terms>()) == wire_version);
 
 // One list of fields for each kind, for a WireWriter and const values or a WireReader and plain ones.
 
@@ -166,6 +176,75 @@ void fields(Stream& s, auto& m, const ObjectEstimates&) {
 }
 
 template <typename Stream>
+void fields(Stream& s, auto& m, const SampleAcknowledgements&) {
+    s.integer(m.count);
+    s.require(m.count >= 1 && m.count <= SampleAcknowledgements::max_count);
+    for (std::size_t i = 0; s.good() && i < m.count; ++i) {
+        std::uint64_t pointer = m.samples[i].pointer;
+        s.varint(pointer);
+        s.require(pointer <= 0xffffu);
+        s.varint(m.samples[i].sequence);
+        s.require(m.samples[i].sequence <= plausible::max_sequence);
+        if constexpr (Stream::reads) {
+            m.samples[i].pointer = static_cast<std::uint16_t>(pointer);
+        }
+    }
+}
+
+// In whole quanta, which stay below `most`.
+template <typename Stream>
+void quanta_field(Stream& s, auto& value, double quantum, double most) {
+    s.require(value >= 0.0 && value <= most);  // false for what is no number
+    std::uint64_t quanta = s.good() ? static_cast<std::uint64_t>(std::llround(value / quantum)) : 0;
+    s.varint(quanta);
+    s.require(static_cast<double>(quanta) <= most / quantum);
+    if constexpr (Stream::reads) {
+        value = s.good() ? static_cast<double>(quanta) * quantum : 0.0;
+    }
+}
+
+template <typename Stream>
+void hand_terms_fields(Stream& s, auto& m) {
+    s.choice(m.kind, HandTerms::Kind::tool);
+    if (m.kind == HandTerms::Kind::fingertip) {
+        quanta_field(s, m.radius, fine_radius_quantum, max_ghost_radius);
+    } else if (m.kind == HandTerms::Kind::tool) {
+        s.integer(m.shape);
+    }
+}
+
+// Hands that are none at the end are not told.
+template <typename Stream>
+void fields(Stream& s, auto& m, const Terms&) {
+    s.integer(m.scenario);
+    s.require(m.scenario >= 1 && m.scenario <= 5);
+    s.integer(m.passivity);
+    if constexpr (Stream::reads) {
+        m.impedance = 0.0;
+    }
+    if (m.passivity == Terms::with_waves) {
+        quanta_field(s, m.impedance, impedance_quantum, max_impedance);
+    }
+    std::uint64_t bodies = m.bodies;
+    s.varint(bodies);
+    s.require(bodies < no_object);
+    std::uint8_t count = 0;
+    if constexpr (Stream::reads) {
+        m.bodies = static_cast<std::uint32_t>(bodies);
+        m.hands = {};
+    } else {
+        for (std::size_t i = 0; i < Terms::max_hands; ++i) {
+            count = m.hands[i].kind != HandTerms::Kind::none ? static_cast<std::uint8_t>(i + 1) : count;
+        }
+    }
+    s.integer(count);
+    s.require(count <= Terms::max_hands);
+    for (std::size_t i = 0; s.good() && i < count; ++i) {
+        hand_terms_fields(s, m.hands[i]);
+    }
+}
+
+template <typename Stream>
 void header_fields(Stream& s, auto& header) {
     s.integer(header.epoch);
     s.varint(header.sequence);
@@ -179,9 +258,8 @@ void header_fields(Stream& s, auto& header) {
     s.set_sent_at(header.sent_at);
 }
 
-// What later versions add to a message: a tag, a size and so many bytes, each skipped by who does not know
-// it.
-void skip_extensions(WireReader& reader) {
+// What was added to a message later: a tag, a size and so many bytes, each skipped by who does not know it.
+void read_extensions(WireReader& reader, Message& message) {
     while (reader.good() && reader.remaining() > 0) {
         std::uint8_t tag = 0, size = 0;
         reader.integer(tag);
@@ -189,7 +267,27 @@ void skip_extensions(WireReader& reader) {
             reader.refuse(Refusal::oversized);
         }
         reader.integer(size);
-        reader.bytes(size);
+        auto* const forces = std::get_if<ForceSamples>(&message);
+        if (reader.good() && forces != nullptr && tag == ForceSamples::taken_tag &&
+            size == forces->count * sizeof(std::uint32_t)) {
+            for (std::size_t i = 0; i < forces->count; ++i) {
+                reader.integer(forces->samples[i].taken);
+            }
+        } else {
+            reader.bytes(size);
+        }
+    }
+}
+
+void write_extensions(WireWriter& writer, const Message& message) {
+    const auto* const forces = std::get_if<ForceSamples>(&message);
+    const auto tells = [](const ForceSample& sample) { return sample.taken != 0; };
+    if (forces != nullptr && std::ranges::any_of(std::span(forces->samples).first(forces->count), tells)) {
+        writer.integer(ForceSamples::taken_tag);
+        writer.integer(static_cast<std::uint8_t>(forces->count * sizeof(std::uint32_t)));
+        for (std::size_t i = 0; i < forces->count; ++i) {
+            writer.integer(forces->samples[i].taken);
+        }
     }
 }
 
@@ -235,10 +333,14 @@ Vec3 spin_as_sent(const Vec3& spin) {
 std::size_t encode(const PacketHeader& header, const Message& message, std::span<std::byte> into) {
     WireWriter writer(into.first(std::min(into.size(), max_message_bytes)));
     writer.integer(packet_magic);
-    writer.integer(wire_version);
-    writer.integer(static_cast<std::uint8_t>(message.index() + 1));
+    const auto type = static_cast<std::uint8_t>(message.index() + 1);
+    writer.integer(version_of(type));
+    writer.integer(type);
     header_fields(writer, header);
     std::visit([&writer]<typename Kind>(const Kind& kind) { fields(writer, kind, kind); }, message);
+    if (writer.good()) {
+        write_extensions(writer, message);
+    }
     return writer.good() ? writer.written() : 0;
 }
 
@@ -262,7 +364,7 @@ Refusal decode(std::span<const std::byte> datagram, Packet& packet) {
     if (reader.good()) {
         read_message(reader, type, packet.message);
     }
-    skip_extensions(reader);
+    read_extensions(reader, packet.message);
     return reader.refusal();
 }
 

@@ -21,12 +21,14 @@
 #include "core/math/pose.hpp"
 #include "core/ports/link.hpp"
 #include "core/teleop/seen_pose.hpp"
+#include "network/sides.hpp"
+#include "network/terms.hpp"
 #include "physics/body_description.hpp"
 #include "physics/joint.hpp"
 
 namespace tactus {
 
-inline constexpr std::uint8_t wire_version = 3;
+inline constexpr std::uint8_t wire_version = 4;
 // The oldest one that is still understood, both as reader and as writer.
 inline constexpr std::uint8_t oldest_wire_version = 3;
 
@@ -43,7 +45,8 @@ constexpr bool is_joint(ObjectId object) {
 using SampleSequence = std::uint64_t;
 inline constexpr SampleSequence no_sample = 0;
 
-enum class Side : std::uint8_t { operator_side = 0, teleoperator_side = 1 };
+// Both sides say what must be alike (terms.hpp) since then.
+inline constexpr std::uint8_t first_version_with_terms = 4;
 
 struct PacketHeader {
     std::uint64_t epoch = 0;     // of the sender: another one at each start, never 0
@@ -62,8 +65,9 @@ struct Hello {
     // Versions that the sender speaks: the two use the newest that both do.
     std::uint8_t oldest_version = oldest_wire_version;
     std::uint8_t newest_version = wire_version;
-    // Of the other side's epoch: packets that have come, and the highest sequence among them. Tells it what
-    // is lost on its way here.
+    // Of the other side's epoch: packets that have come up to a sequence, without copies, and that sequence,
+    // far enough back that what was overtaken has come as well (SequenceWindow::settled). Tells it what is
+    // lost on its way here.
     std::uint64_t heard_packets = 0;
     std::uint64_t heard_sequence = 0;
 };
@@ -193,10 +197,19 @@ struct ForceSample {
     Vec3 force{0.0};                                    // on the hand (unit: newtons)
     Vec3 proxy{0.0};                                    // where the far side's fingertip is (unit: meters)
     ObjectId object = no_object;                        // that is touched
+    // That the far end has taken in so far from the environment (unit: energy_quantum); begins again after
+    // 2^32. In an extension: 0 where a side of an older version has told none.
+    std::uint32_t taken = 0;
 };
+inline constexpr double energy_quantum = 1e-7;  // (unit: joules)
+// `energy` >= 0 (unit: joules). Rounded down: no more is told than there is.
+inline std::uint32_t told_energy(double energy) {
+    return static_cast<std::uint32_t>(static_cast<std::uint64_t>(energy / energy_quantum));
+}
 
 struct ForceSamples {
     static constexpr std::size_t max_count = 16;
+    static constexpr std::uint8_t taken_tag = 1;  // of the extension with `taken` of each sample
 
     std::uint8_t count = 0;  // 1 … max_count
     std::array<ForceSample, max_count> samples{};
@@ -229,7 +242,10 @@ struct Ghost {
     double radius = 0.0;  // (unit: meters), 0 … max_ghost_radius
 };
 inline constexpr double max_ghost_radius = 1e3;
-inline constexpr double radius_quantum = 1e-6;  // (unit: meters)
+inline constexpr double radius_quantum = 1e-6;       // (unit: meters)
+inline constexpr double fine_radius_quantum = 1e-9;  // likewise, of what must be alike
+// Of wave variables, as it is sent, and the most that is (unit: newton-seconds per meter).
+inline constexpr double impedance_quantum = 1e-6, max_impedance = 1e6;
 
 // All that there are. Nothing is said where there are none.
 struct Ghosts {
@@ -258,9 +274,22 @@ struct ObjectEstimates {
     std::array<ObjectEstimate, max_count> estimates{};
 };
 
+// The newest sample of each hand that has come and stands (core/teleop/deadband.hpp): the operator need not
+// repeat it any more.
+struct SampleAcknowledgement {
+    std::uint16_t pointer = 0;
+    SampleSequence sequence = no_sample;
+};
+struct SampleAcknowledgements {
+    static constexpr std::size_t max_count = 24;
+
+    std::uint8_t count = 0;  // 1 … max_count
+    std::array<SampleAcknowledgement, max_count> samples{};
+};
+
 using Message = std::variant<Hello, Bye, ClockRequest, ClockAnswer, DiscoveryFragment, ObjectRemoval,
                              DiscoveryAcknowledgement, ObjectStates, OperatorSamples, ForceSamples, Ghosts,
-                             ObjectEstimates, WrenchSamples>;
+                             ObjectEstimates, WrenchSamples, SampleAcknowledgements, Terms>;
 
 struct Packet {
     PacketHeader header;

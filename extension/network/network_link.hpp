@@ -23,6 +23,9 @@ struct NetworkSettings {
 struct NetworkFigures {
     UdpFigures udp;
     EmulatorCounts emulator;
+
+    // What sealing adds to each packet (unit: bytes).
+    std::size_t sealing() const { return udp.sealed ? SecureSession::overhead : 0; }
 };
 
 class NetworkLink final : public Link {

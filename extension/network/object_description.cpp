@@ -164,8 +164,12 @@ void shape_fields(auto& s, auto& shape, const HeightFieldShape&) {
     const std::size_t size = grid_size(s, shape.columns, shape.rows, 2);
     s.vector(shape.scale);
     constexpr auto most = static_cast<float>(max_wire_length);
-    shared(s, shape.heights,
-           [size](auto& stream, auto& heights) { height_list(stream, heights, size, -most, most); });
+    shared(s, shape.heights, [size](auto& stream, auto& heights) {
+        height_list(stream, heights, size, -hole_height, hole_height);
+        for (const float height : heights) {
+            stream.require(height == hole_height || std::abs(height) <= most);
+        }
+    });
 }
 
 template <std::size_t... Kinds>

@@ -23,7 +23,7 @@ constexpr double hardly_lost = 0.5;  // of what is much
 void Pace::adapt(Endpoint& link, Nanoseconds now) {
     const QueueFigures& way = link.statistics().queue_there;
     const double lost = link.statistics().lost_there;
-    queues_ = way.is_longer_than(queue);
+    queues_ = way.is_longer_than(queue, stride_ > 1 || tried_more_);
     // What was asked before the last change tells nothing of it; a queue that empties already will be gone.
     const bool fills = queues_ && way.as_of > changed_at_ && !way.falls();
     const bool lossy = loses(lost, now);

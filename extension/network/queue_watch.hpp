@@ -22,8 +22,11 @@ struct QueueFigures {
     double chance = 0.0;    // (unit: nanoseconds)
     Nanoseconds as_of = 0;  // when the newest of them was asked, in the session's time
 
-    bool is_longer_than(double nanoseconds) const {
-        return known && waiting > std::max(nanoseconds, 2.5 * chance);
+    // What is spread evenly lies within 3.6 `chance` above the least, and three in a row of what is normal
+    // are beyond 5.5 once in 10⁵ requests. Where a queue is expected, because more is being sent than before
+    // or because there was one, it is told of earlier: by chance that is normal, in two of a thousand.
+    bool is_longer_than(double nanoseconds, bool expected) const {
+        return known && waiting > std::max(nanoseconds, (expected ? 4.0 : 5.5) * chance);
     }
     // It empties already.
     bool falls() const { return trend < -2e6; }
@@ -43,7 +46,9 @@ public:
         const Nanoseconds least = std::min(least_, least_before_);
         if (count_ >= 2) {
             const auto bend = static_cast<double>(way - 2 * ways_[0] + ways_[1]);
-            figures_.chance += smoothing * (0.5 * std::abs(bend) - figures_.chance);
+            // The first ones are averaged: what begins at 0 would take chance for a queue.
+            const double share = std::max(smoothing, 1.0 / static_cast<double>(count_ - 1));
+            figures_.chance += share * (0.5 * std::abs(bend) - figures_.chance);
         }
         if (count_ == 0) {
             ways_.fill(way);
@@ -65,7 +70,7 @@ public:
 private:
     // The least of two such stretches counts, so that a way that has become longer is known as such in time.
     static constexpr Nanoseconds stretch = 5 * nanoseconds_per_second;
-    static constexpr double smoothing = 1.0 / 16.0;
+    static constexpr double smoothing = 1.0 / 32.0;
 
     QueueFigures figures_;
     std::array<Nanoseconds, 2> ways_{};  // the last ones, newest first

@@ -53,6 +53,24 @@ public:
     // Sent since the first one seen and not here: lost, or still on the way.
     std::uint64_t missing() const { return newest_ == 0 ? 0 : newest_ - first_ + 1 - seen_; }
 
+    // What has come up to a sequence after which `settled_after` others have come: what was overtaken is
+    // counted there, as long as no more overtake.
+    struct Settled {
+        std::uint64_t sequence = 0;  // 0: none yet
+        std::uint64_t packets = 0;   // from the first one seen up to it, without copies
+    };
+    static constexpr std::uint64_t settled_after = 128;
+    Settled settled() const {
+        if (newest_ < first_ + settled_after) {
+            return {};
+        }
+        std::uint64_t later = 0;
+        for (std::uint64_t sequence = newest_ - settled_after + 1; sequence <= newest_; ++sequence) {
+            later += is_set(sequence) ? 1 : 0;
+        }
+        return {newest_ - settled_after, seen_ - later};
+    }
+
     void forget() { *this = {}; }
 
 private:

@@ -44,6 +44,20 @@ std::string own_address_error(const UdpAddress& remote) {
            "this side where both run on one machine";
 }
 
+std::string family_error(const UdpAddress& local, const UdpAddress& remote, IpFamily of_remote) {
+    const bool remote_is_six = of_remote == IpFamily::six;
+    return "the local address \"" + local.host + "\" belongs to " + (remote_is_six ? "IPv4" : "IPv6") +
+           " and the far side's \"" + remote.host + "\" to " + (remote_is_six ? "IPv6" : "IPv4") +
+           ": leave the local address empty, or give both of one kind";
+}
+
+// The other side of this machine may be set to 127.0.0.1: a lone ::1 stands for both.
+void add_other_loopback(std::vector<IpAddress>& remotes) {
+    if (remotes.size() == 1 && remotes[0].family == IpFamily::six && is_loopback(remotes[0])) {
+        remotes.push_back(loopback(IpFamily::four, remotes[0].port));
+    }
+}
+
 // Connects to the first of its addresses that there is a way to.
 SocketError connect_to_any(SocketHandle socket, const std::vector<IpAddress>& remotes) {
     SocketError error;
@@ -63,6 +77,10 @@ SocketHandle open_socket(const UdpSocket& wanted, const UdpAddress& local, const
     if (!local.host.empty() || !loopback_only) {
         const std::vector<IpAddress> found = resolve(local, wanted.family, error);
         if (found.empty()) {
+            std::string unknown;
+            error = resolve(local, IpFamily::any, unknown).empty()
+                        ? unknown
+                        : family_error(local, remote, wanted.family);
             return no_socket;
         }
         here = found.front();
@@ -98,6 +116,7 @@ UdpSockets open_udp_sockets(const UdpAddress& local, const UdpAddress& remote, b
     if (remotes.empty()) {
         return opened;
     }
+    add_other_loopback(remotes);
     if (loopback_only) {
         std::erase_if(remotes, [](const IpAddress& address) { return !is_loopback(address); });
         if (remotes.empty()) {

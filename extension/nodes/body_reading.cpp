@@ -10,6 +10,8 @@
 #include "nodes/haptic_material.hpp"
 #include "nodes/haptic_mesh.hpp"
 #include "nodes/haptic_soft_body.hpp"
+#include "nodes/passed_over.hpp"
+#include "nodes/scene_warnings.hpp"
 
 namespace tactus {
 
@@ -41,6 +43,12 @@ void take(ShapeReading reading, const Object* owner, BodyForm& form, std::vector
     std::ranges::move(reading.meshes, std::back_inserter(meshes));
 }
 
+void take_problem_of(const HapticMaterial* material, BodyForm& form) {
+    if (std::string problem = material != nullptr ? material->problem() : ""; !problem.empty()) {
+        form.problems.push_back(std::move(problem));
+    }
+}
+
 }  // namespace
 
 Ref<PhysicsMaterial> material_of(const CollisionObject3D& body) {
@@ -68,19 +76,46 @@ void hold_still(const RigidBody3D& body, bool held) {
 }
 
 BodyForm read_form(CollisionObject3D& body) {
+    return read_form(body, scaling_of(frame_of(body.get_global_transform())));
+}
+
+bool is_disabled(const Node& node) {
+    const Node* decides = &node;
+    while (decides->get_process_mode() == Node::PROCESS_MODE_INHERIT && decides->get_parent() != nullptr) {
+        decides = decides->get_parent();
+    }
+    return decides->get_process_mode() == Node::PROCESS_MODE_DISABLED;
+}
+
+bool is_out(const CollisionObject3D& body) {
+    return body.get_disable_mode() == CollisionObject3D::DISABLE_MODE_REMOVE && !is_edited() &&
+           is_disabled(body);
+}
+
+BodyForm read_form(CollisionObject3D& body, const Mat3& body_scale) {
     BodyForm form;
-    const SceneFrame frame = frame_of(body.get_global_transform());
-    if (std::string problem = problem_of_place(frame); !problem.empty()) {
+    if (is_out(body)) {
+        return form;
+    }
+    if (std::string problem = problem_of_place(frame_of(body.get_global_transform())); !problem.empty()) {
         form.problems.push_back(std::move(problem));
         return form;
     }
-    const SceneFrame scaling{scaling_of(frame)};
+    form.problems = passed_over(body);
+    const SceneFrame scaling{body_scale};
+    const auto* material = Object::cast_to<HapticMaterial>(material_of(body).ptr());
+    take_problem_of(material, form);
+    HapticMesh* const mesh = part_of<HapticMesh>(body);
+    for (const Ref<HapticMaterial>& surface :
+         mesh != nullptr ? mesh->surface_materials() : std::vector<Ref<HapticMaterial>>()) {
+        take_problem_of(surface.ptr(), form);
+    }
+    const std::size_t besides = form.problems.size();  // what is said of its shapes follows
     for_each_shape(body, [&](const Ref<Shape3D>& shape, const Transform3D& place, Object* owner) {
         take(read_shape(shape, compose(scaling, frame_of(place))), owner, form, form.meshes);
     });
-    if (HapticMesh* mesh = part_of<HapticMesh>(body)) {
+    if (mesh != nullptr) {
         mesh->follow_instance();
-        const auto* material = Object::cast_to<HapticMaterial>(material_of(body).ptr());
         take(mesh->read(scaling, material != nullptr && material->is_laid_by_uv()), mesh, form, form.touched);
     }
     if (const HapticSoftBody* soft = part_of<HapticSoftBody>(body)) {
@@ -98,7 +133,7 @@ BodyForm read_form(CollisionObject3D& body) {
     }
     form.touchable =
         !form.shapes.empty() || !form.meshes.empty() || !form.touched.empty() || form.soft != nullptr;
-    if (!form.touchable && form.problems.empty()) {
+    if (!form.touchable && form.problems.size() == besides) {
         form.problems.push_back("it has no shape: give it a CollisionShape3D or a HapticMesh as a child");
     }
     return form;

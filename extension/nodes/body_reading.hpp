@@ -21,8 +21,15 @@ void hold_still(const godot::RigidBody3D& body, bool held);
 // Of any of the bodies that can have one.
 godot::Ref<godot::PhysicsMaterial> material_of(const godot::CollisionObject3D& body);
 
+// Its process mode, or that of a node above it, is DISABLED; what that means for a body its 'disable_mode'
+// says.
+bool is_disabled(const godot::Node& node);
+// By that, it is not in the physics for now.
+bool is_out(const godot::CollisionObject3D& body);
 // The triangles of meshes are taken as they are; problems_of() looks at them, too.
 BodyForm read_form(godot::CollisionObject3D& body);
+// `body_scale`: what the body's own frame scales, as it counts (scaling_of()).
+BodyForm read_form(godot::CollisionObject3D& body, const Mat3& body_scale);
 
 // Calls use(shape, its place in the body, Godot's owner of it) for each shape that takes part.
 void for_each_shape(godot::CollisionObject3D& body, auto&& use) {

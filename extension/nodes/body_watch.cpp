@@ -71,6 +71,12 @@ void BodyWatch::_notification(int what) {
         case NOTIFICATION_EXIT_TREE:
             listener_->is_in_tree(what == NOTIFICATION_ENTER_TREE);
             break;
+        case NOTIFICATION_DISABLED:
+        case NOTIFICATION_ENABLED:
+        case NOTIFICATION_PAUSED:
+        case NOTIFICATION_UNPAUSED:
+            listener_->has_changed();
+            break;
         case NOTIFICATION_UNPARENTED:
             go();
             break;

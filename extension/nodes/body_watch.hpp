@@ -17,7 +17,7 @@ public:
     class Listener {
     public:
         virtual void has_moved() = 0;
-        virtual void has_changed() = 0;  // a resource of it
+        virtual void has_changed() = 0;  // a resource of it, or whether it is processed
         virtual void is_in_tree(bool now) = 0;
         virtual void watch_has_gone() = 0;  // with its body, or because somebody took it out
 

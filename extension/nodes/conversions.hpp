@@ -77,6 +77,9 @@ inline godot::Basis basis_of(const Mat3& matrix) {
 }
 
 // Where `pose` is, scaled.
+inline godot::Transform3D to_godot(const SceneFrame& frame) {
+    return {basis_of(frame.axes), to_godot(frame.origin)};
+}
 inline godot::Transform3D to_godot(const Pose& pose, const Mat3& scaling) {
     const godot::Transform3D placed = to_godot(pose);
     return {placed.basis * basis_of(scaling), placed.origin};

@@ -93,6 +93,16 @@ bool GodotBody::is_in_scene() const {
     return watch_ != nullptr ? is_in_tree_ : is_there() && node_.is_inside_tree();
 }
 
+std::uint64_t GodotBody::carrier() const {
+    for (const Node* above = node_.get_parent(); above != nullptr && above != &scene_.world;
+         above = above->get_parent()) {
+        if (Object::cast_to<RigidBody3D>(above) != nullptr) {
+            return above->get_instance_id();
+        }
+    }
+    return 0;
+}
+
 std::string GodotBody::path() const {
     return from_godot(String(scene_.world.get_path_to(&node_)));
 }
@@ -103,7 +113,7 @@ SceneSpeed GodotBody::speed() const {
                              : SceneSpeed{};
 }
 
-BodyMakings GodotBody::makings() const {
+BodyMakings GodotBody::makings(const Mat3& scaling) const {
     BodyMakings makings;
     const HapticMesh* mesh = part_of<HapticMesh>(node_);
     if (mesh != nullptr) {
@@ -119,7 +129,7 @@ BodyMakings GodotBody::makings() const {
     makings.locks |= rigid_->is_lock_rotation_enabled() ? all_turns : 0u;
     makings.mass = rigid_->get_mass();
     if (mesh != nullptr && mesh->is_giving_mass()) {
-        makings.mass = mesh->library_mass(scaling_of(frame()));
+        makings.mass = mesh->library_mass(scaling);
         makings.solid_of_mesh = true;
     }
     makings.inertia = from_godot(rigid_->get_inertia());
@@ -134,6 +144,7 @@ BodyMakings GodotBody::makings() const {
 ShapeKey GodotBody::shape_key() const {
     ShapeKey key;
     key.scaling = scaling_of(frame());
+    key.is_out = is_out(node_);
     for_each_shape(node_, [&key](const Ref<Shape3D>& shape, const Transform3D& place, Object*) {
         key.shapes.push_back({shape->get_instance_id(), frame_of(place)});
     });
@@ -147,7 +158,11 @@ BodyValues GodotBody::values(const BodyDefaults& defaults) {
         listen();
     }
     BodyValues values;
-    values.motion = motion_of(node_);
+    const bool is_still = is_disabled(node_)
+                              ? node_.get_disable_mode() == CollisionObject3D::DISABLE_MODE_MAKE_STATIC
+                              : scene_.world.can_process() && !node_.can_process();
+    values.motion = is_still ? Motion::Static : motion_of(node_);
+    values.is_paused = is_still && rigid_ != nullptr;
     read_touch(material, defaults, values);
     if (mesh != nullptr) {
         read_surfaces(*mesh, values);
@@ -231,7 +246,10 @@ SceneSpeed GodotBody::set_speed(const SceneSpeed& speed) {
 }
 
 SceneFrame GodotBody::stand_at(const Pose& pose, const Mat3& scaling) {
-    const Transform3D place = to_godot(pose, scaling);
+    return put(to_godot(pose, scaling));
+}
+
+SceneFrame GodotBody::put(const Transform3D& place) {
     if (scene_.is_at_origin && is_below_world_) {
         node_.set_transform(place);
         return frame_of(place);

@@ -32,11 +32,12 @@ public:
     std::string name() const override { return from_godot(name_of(node_)); }
     std::string path() const override;
     bool can_be_thrown() const override { return rigid_ != nullptr; }
+    std::uint64_t carrier() const override;
     SceneFrame frame() const override { return frame_of(node_.get_global_transform()); }
     SceneSpeed speed() const override;
-    BodyMakings makings() const override;
+    BodyMakings makings(const Mat3& scaling) const override;
     ShapeKey shape_key() const override;
-    BodyForm form() const override { return read_form(node_); }
+    BodyForm form(const Mat3& scaling) const override { return read_form(node_, scaling); }
     BodyValues values(const BodyDefaults& defaults) override;
 
     void hold_still() override;
@@ -46,10 +47,12 @@ public:
 
     SceneSpeed set_speed(const SceneSpeed& speed) override;
     SceneFrame stand_at(const Pose& pose, const Mat3& scaling) override;
+    SceneFrame put_back(const SceneFrame& frame) override { return put(to_godot(frame)); }
 
     void say(const std::string& problem) const override { scene_.complaints.say(node_, problem); }
 
 private:
+    SceneFrame put(const godot::Transform3D& place);
     void has_moved() override { news_->moved.push_back(id_); }
     void has_changed() override { news_->changed.push_back(id_); }
     void is_in_tree(bool now) override;

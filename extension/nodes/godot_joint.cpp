@@ -123,6 +123,13 @@ std::string problem_of_joint(const Joint3D& node) {
             return from_godot(wrong_path(property, path, "a body") + ", or leave it empty for the world");
         }
     }
+    const auto can_move = [&node](const NodePath& path) {
+        const godot::Node* body = path.is_empty() ? nullptr : node.get_node_or_null(path);
+        return body != nullptr && !body->is_class("StaticBody3D");
+    };
+    if (!can_move(node.get_node_a()) && !can_move(node.get_node_b())) {
+        return "it joins nothing that moves: let node_a or node_b lead to a RigidBody3D";
+    }
     return {};
 }
 

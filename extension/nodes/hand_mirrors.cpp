@@ -176,6 +176,20 @@ SessionHandle HandMirrors::handle_of(const ProxyPointer* proxy) const {
     return handle_in(proxies_, proxy);
 }
 
+void HandMirrors::end_contacts(std::uint64_t node) {
+    const auto end = [node](auto& one, const auto&) { one.end_contact(node); };
+    for_each_node<ProxyPointer>(proxies_, end);
+    for_each_node<HapticTool>(tools_, end);
+}
+
+bool HandMirrors::displays_forces() const {
+    bool displays = false;
+    for_each_node<HapticDevice>(devices_, [&displays](const HapticDevice& node, const DeviceTwin&) {
+        displays = displays || node.displays_forces();
+    });
+    return displays;
+}
+
 void HandMirrors::clear_forces() {
     const auto clear = [](auto& node, const auto&) { node.clear_force(); };
     for_each_node<ProxyPointer>(proxies_, clear);

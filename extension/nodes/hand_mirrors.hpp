@@ -37,7 +37,11 @@ public:
     void show_pointers(const SessionSnapshot& snapshot, const NodeOf& node_of);
     // Ids of what they touch, as shown last.
     const std::vector<std::uint64_t>& touched() const { return touched_; }
+    // The node is about to go: those that touch it post that this has ended.
+    void end_contacts(std::uint64_t node);
     void clear_forces();
+    // One of the devices has motors, or may have them.
+    bool displays_forces() const;
     // All of them are told that nothing runs.
     void release();
 

@@ -13,6 +13,7 @@
 #include "nodes/conversions.hpp"
 #include "nodes/hand_input.hpp"
 #include "nodes/haptic_world.hpp"
+#include "nodes/input_watch.hpp"
 #include "nodes/mesh_drawing.hpp"
 #include "nodes/messages.hpp"
 #include "nodes/project_settings.hpp"
@@ -300,13 +301,10 @@ void HapticDevice::lead_hand() {
     }
 }
 
-void HapticDevice::_unhandled_input(const Ref<InputEvent>& event) {
-    if (is_edited()) {
-        return;
-    }
-    if (const auto* motion = Object::cast_to<InputEventMouseMotion>(event.ptr())) {
+void HapticDevice::take_input(const InputEvent& event) {
+    if (const auto* motion = Object::cast_to<InputEventMouseMotion>(&event)) {
         aim_mouse(motion->get_position(), 0.0);
-    } else if (const auto* button = Object::cast_to<InputEventMouseButton>(event.ptr())) {
+    } else if (const auto* button = Object::cast_to<InputEventMouseButton>(&event)) {
         const bool away = button->is_pressed() && button->get_button_index() == MOUSE_BUTTON_WHEEL_UP;
         const bool closer = button->is_pressed() && button->get_button_index() == MOUSE_BUTTON_WHEEL_DOWN;
         aim_mouse(button->get_position(), wheel_step_ * (away ? 1.0 : closer ? -1.0 : 0.0));
@@ -317,6 +315,7 @@ void HapticDevice::_notification(int what) {
     keep_roll(*this, what);
     if (what == NOTIFICATION_ENTER_TREE) {
         draw_box();
+        InputWatch::put_into(*this);
     } else if (what == NOTIFICATION_EXIT_TREE) {
         changed();
         clear_state();

@@ -44,7 +44,6 @@ public:
     // Puts the hand of a mouse under this point of the screen, at the depth where it is now.
     void aim_mouse(const godot::Vector2& screen_position, double depth_change);
 
-    void _unhandled_input(const godot::Ref<godot::InputEvent>& event) override;
     godot::PackedStringArray _get_configuration_warnings() const override;
 
     // --- for the world that runs it
@@ -58,6 +57,10 @@ public:
     Vec3 start() const;
     void take_state(const DeviceState& state);
     void clear_state() { take_state({}); }
+    // It has motors that a driver commands.
+    bool displays_forces() const { return has_driver(kind()); }
+    // An event that nothing else has handled (input_watch.hpp).
+    void take_input(const godot::InputEvent& event);
 
 protected:
     static void _bind_methods();

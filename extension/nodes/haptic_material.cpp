@@ -22,10 +22,15 @@ std::shared_ptr<const TouchImage> image_of(const Ref<Texture2D>& texture) {
                        {bytes.ptr(), static_cast<std::size_t>(bytes.size())});
 }
 
+// One that another thread makes has its image later, and says so.
+bool is_without_image(const Ref<Texture2D>& texture, const std::shared_ptr<const TouchImage>& image) {
+    return texture.is_valid() && image == nullptr && !texture->is_class("NoiseTexture2D");
+}
+
 }  // namespace
 
 void HapticMaterial::set_preset(Preset preset) {
-    if (preset < PRESET_CUSTOM || preset > PRESET_SPONGE) {
+    if (preset < PRESET_CUSTOM || preset > PRESET_FOAM) {
         refuse(*this, "preset", static_cast<int64_t>(preset), "one of the constants PRESET_…");
         return;
     }
@@ -69,6 +74,17 @@ TouchImages HapticMaterial::images() const {
     }
     images.friction = read(friction_, read_.friction);
     return images;
+}
+
+std::string HapticMaterial::problem() const {
+    const TouchImages all = images();
+    const bool is_heights = touch_.texture_depth > 0.0 && is_without_image(texture_, all.heights);
+    return is_heights || is_without_image(friction_, all.friction)
+               ? std::string("the ") + (is_heights ? "'texture_image'" : "'friction_image'") +
+                     " of its HapticMaterial has no image that can be read, and nothing is felt of it: "
+                     "choose "
+                     "a texture that is loaded from an image"
+               : "";
 }
 
 std::shared_ptr<const TouchDetail> HapticMaterial::detail() const {

@@ -4,6 +4,7 @@
 #include <godot_cpp/classes/texture2d.hpp>
 #include <godot_cpp/core/binder_common.hpp>
 #include <memory>
+#include <string>
 
 #include "core/haptics/touch_material.hpp"
 #include "nodes/properties.hpp"
@@ -24,6 +25,10 @@ public:
         PRESET_SANDPAPER = static_cast<int64_t>(MaterialPreset::sandpaper),
         PRESET_STEEL = static_cast<int64_t>(MaterialPreset::steel),
         PRESET_SPONGE = static_cast<int64_t>(MaterialPreset::sponge),
+        PRESET_WOOD = static_cast<int64_t>(MaterialPreset::wood),
+        PRESET_GLASS = static_cast<int64_t>(MaterialPreset::glass),
+        PRESET_SKIN = static_cast<int64_t>(MaterialPreset::skin),
+        PRESET_FOAM = static_cast<int64_t>(MaterialPreset::foam),
     };
 
     TACTUS_PROPERTIES(HapticMaterial)
@@ -39,6 +44,8 @@ public:
     // Ready for use, without images: static friction is never below dynamic friction.
     TouchMaterial touch() const;
     TouchImages images() const;
+    // Which of them cannot be read, and what to do; empty where there is none.
+    std::string problem() const;
     // The same for a body; null where there are none.
     std::shared_ptr<const TouchDetail> detail() const;
     bool is_laid_by_uv() const { return mapping_ == TEXTURE_MAPPING_UV && (images() != TouchImages()); }

@@ -96,10 +96,17 @@ std::shared_ptr<const SurfaceMap> HapticMesh::surfaces(const SurfaceFeels& feels
 
 void HapticMesh::instance_changed() {
     set_process_internal(is_following());
-    followed_.unref();
+    followed_changed();
     skin_.reset();
     forget_triangles();
     follow_instance();
+}
+
+// It is read anew when it is looked at next: an engine changes a mesh by one surface after the other.
+void HapticMesh::followed_changed() {
+    follow_changes(*this, "_followed_changed", Variant(followed_.ptr()), Variant());
+    followed_.unref();
+    note_part_changed();
 }
 
 // As it is drawn in this frame. What it has been is given to workers to be put in that pose, and to bodies to
@@ -114,6 +121,7 @@ void HapticMesh::follow_instance() {
     const Ref<Mesh> mesh = instance != nullptr ? instance->get_mesh() : Ref<Mesh>();
     const bool is_other = mesh != followed_;
     if (is_other) {
+        follow_changes(*this, "_followed_changed", Variant(followed_.ptr()), Variant(mesh.ptr()));
         followed_ = mesh;
         skin_ = mesh.is_valid() ? skinned_mesh_of(mesh) : nullptr;
     }

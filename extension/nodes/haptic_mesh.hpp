@@ -64,6 +64,7 @@ private:
     std::shared_ptr<TriangleSource> source() const;
     bool is_following() const { return mesh_.is_null() && field_.is_null() && !mesh_instance_.is_empty(); }
     void instance_changed();
+    void followed_changed();
     std::shared_ptr<const SurfaceMap> surfaces(const SurfaceFeels& feels, bool by_uv) const;
     const LibraryEntry& entry() const;
     godot::String problem_of_surfaces() const;

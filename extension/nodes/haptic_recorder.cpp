@@ -57,7 +57,9 @@ PackedStringArray HapticRecorder::_get_configuration_warnings() const {
 bool HapticRecorder::start() {
     stop();
     recording_.reset();
+    not_started_ = String();
     const auto say = [this](const std::string& what) {
+        not_started_ = to_godot(what);
         UtilityFunctions::push_warning(name_of(*this), ": ", to_godot(what), ".");
     };
     if (!has_file()) {

@@ -30,6 +30,9 @@ public:
         return recording_ != nullptr ? static_cast<int64_t>(recording_->lost()) : 0;
     }
 
+    godot::String get_problem() const {
+        return recording_ != nullptr ? to_godot(recording_->problem()) : not_started_;
+    }
     godot::PackedStringArray _get_configuration_warnings() const override;
 
     // --- for the world that is recorded
@@ -53,6 +56,7 @@ private:
     double trace_seconds_ = 15.0;
     bool autostart_ = true;
 
+    godot::String not_started_;             // why the last start opened no file
     std::shared_ptr<Recording> recording_;  // the last one, when it has ended; null: none yet
 };
 

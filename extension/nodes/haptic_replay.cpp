@@ -25,6 +25,15 @@ bool HapticReplay::open(const String& inputs_path, const String& csv_path) {
     return player_ != nullptr;
 }
 
+InputReplay::Report HapticReplay::report() const {
+    if (player_ == nullptr) {
+        return {};
+    }
+    InputReplay::Report found = player_->report();
+    found.problem = found.problem.empty() ? player_->rows_problem() : found.problem;
+    return found;
+}
+
 // A recording stands still where the world did: it is the number of ticks that counts.
 int64_t HapticReplay::play(double seconds) {
     ERR_FAIL_COND_V_MSG(!(seconds >= 0.0 && seconds <= max_seconds), 0,

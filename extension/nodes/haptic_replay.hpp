@@ -24,9 +24,7 @@ protected:
     static void _bind_methods();
 
 private:
-    InputReplay::Report report() const {
-        return player_ != nullptr ? player_->report() : InputReplay::Report{};
-    }
+    InputReplay::Report report() const;
 
     std::unique_ptr<InputPlayer> player_;  // null: nothing is open
     bool is_over_ = false;

@@ -1,7 +1,9 @@
 #include "nodes/haptic_soft_body.hpp"
 
 #include <algorithm>
+#include <glm/matrix.hpp>
 #include <godot_cpp/classes/rigid_body3d.hpp>
+#include <utility>
 
 #include "nodes/body_parts.hpp"
 #include "nodes/body_reading.hpp"
@@ -73,6 +75,10 @@ std::shared_ptr<SoftPlan> HapticSoftBody::plan(const SceneFrame& body_scale) con
     if (plan_ == nullptr || !plan_->is_for(frame, seconds)) {
         SoftDescription description = described();
         description.frame = frame;
+        if (glm::determinant(body_scale.axes) < 0.0) {
+            // The body's pose is that of the mirrored frame turned about its origin by what mirrors it.
+            description.held.low = -std::exchange(description.held.high, -description.held.low);
+        }
         plan_ = std::make_shared<SoftPlan>(std::move(description));
     }
     return plan_;

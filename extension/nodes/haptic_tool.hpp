@@ -40,7 +40,9 @@ public:
     godot::Transform3D get_hand_transform() const { return to_godot(state_.hand); }
     godot::Transform3D get_tool_transform() const { return to_godot(state_.pose); }
     bool is_touching() const { return has(tool_touching); }
-    bool is_present() const { return state_.handle != no_handle && !has(tool_absent) && !has(touch_unheld); }
+    bool is_present() const {
+        return state_.handle != no_handle && !has(tool_absent) && !has(touch_unheld | far_hand_away);
+    }
     godot::BitField<Status> get_status() const { return static_cast<Status>(state_.status); }
     double get_residual() const { return state_.residual; }
     int64_t get_sphere_count() const;
@@ -66,6 +68,7 @@ public:
     using Touched = TouchedBodies<ToolState::max_contacts>;
     void take_state(const ToolState& state, const Touched::Ids& bodies);
     void clear_state();
+    void end_contact(std::uint64_t node) { touched_.end(*this, node); }
     bool is_kept_out() const { return has(tool_absent); }
     void clear_force();
 

@@ -11,6 +11,7 @@
 #include "nodes/haptic_recorder.hpp"
 #include "nodes/messages.hpp"
 #include "nodes/mmt_link.hpp"
+#include "nodes/passed_over.hpp"
 #include "nodes/project_settings.hpp"
 #include "nodes/roll.hpp"
 #include "nodes/scene_warnings.hpp"
@@ -34,6 +35,9 @@ constexpr double max_advance = 3600.0;  // (unit: seconds)
 // Frames take turns of very different length; a body that moves on Godot's side is given at least this long
 // for its way (unit: seconds).
 constexpr double shortest_way = 1e-3;
+
+// That wake-ups of a loop without a force may be put off by, for the processor's rest (unit: nanoseconds).
+constexpr Nanoseconds relaxed_slack = 50'000;
 
 double project_number(const char* name, double otherwise) {
     return ProjectSettings::get_singleton()->get_setting(name, otherwise);
@@ -69,7 +73,9 @@ void warn_of(Node& node, PackedStringArray& warnings) {
     } else if (const auto* joint = Object::cast_to<Joint3D>(&node)) {
         warn(warnings, name + String(" does not join as it should"), to_godot(problem_of_joint(*joint)));
     } else {
-        warn(warnings, name + String(" cannot be touched"), problem_of_kind(node));
+        for (const std::string& problem : passed_over(node)) {
+            warn(warnings, name + String(" is not carried out as Godot has it"), to_godot(problem));
+        }
     }
 }
 
@@ -157,7 +163,7 @@ void HapticWorld::start() {
     Roll<HapticWorld>::enter(this);
     run_->synchronise(shortest_way);
     start_loop();
-    set_process(true);
+    set_process_internal(true);
     post_signal(*this, "started");
 }
 
@@ -167,12 +173,14 @@ std::unique_ptr<InputRecording> HapticWorld::record_inputs(const SessionSettings
         return nullptr;
     }
     ++starts_;
+    inputs_problem_ = String();
     const String path = starts_ == 1 ? inputs_path_
                                      : inputs_path_.get_basename() + "_" + String::num_int64(starts_) + "." +
                                            inputs_path_.get_extension();
     return InputRecording::open(
         whole_path(path), settings, [id = get_instance_id()](const std::string& what) {
-            if (const auto* const world = node_of_id<HapticWorld>(id)) {
+            if (auto* const world = node_of_id<HapticWorld>(id)) {
+                world->inputs_problem_ = to_godot(what);
                 UtilityFunctions::push_warning(name_of(*world), ": ", to_godot(what), ".");
             }
         });
@@ -182,15 +190,28 @@ TickLoopSettings HapticWorld::loop_settings() const {
     TickLoopSettings settings;
     settings.period = nanoseconds_per_second / tick_rate_;
     settings.realtime = realtime_;
-    if (!project_wants_real_time()) {
+    if (!is_urgent()) {
         settings.realtime.fifo_priority = 0;
         settings.realtime.lock_memory = false;
+        settings.realtime.keep_awake = false;
+        settings.realtime.timer_slack = relaxed_slack;
+        settings.sleep.spin_limit = 0;
     }
     return settings;
 }
 
+// A tick that is late by some milliseconds is felt by a hand that is given forces, and by no other: the mean
+// stays the period.
+bool HapticWorld::is_urgent() const {
+    return project_wants_real_time() && (measure_baseline_ || run_->displays_forces());
+}
+
 void HapticWorld::start_loop() {
     if (clock_ != CLOCK_REAL_TIME || !can_process()) {
+        return;
+    }
+    if (!run_->may_begin()) {
+        loop_changed();  // in the next frame, again
         return;
     }
     if (const std::string error = run_->loop().start(loop_settings(), measure_baseline_); !error.empty()) {
@@ -252,6 +273,9 @@ void HapticWorld::_notification(int what) {
             get_tree()->disconnect("node_removed", Callable(this, "_node_removed"));
             stop();
             break;
+        case NOTIFICATION_INTERNAL_PROCESS:
+            process(get_process_delta_time());
+            break;
         case NOTIFICATION_PAUSED:
             if (run_ != nullptr) {
                 run_->pause();
@@ -280,11 +304,13 @@ void HapticWorld::node_removed(const Variant& removed) {
         return;
     }
     run_->node_removed(*node);
+    const std::uint64_t id = node->get_instance_id();
     if (const auto* link = Object::cast_to<MMTLink>(node); link != nullptr && link->is_networked()) {
         if (is_ancestor_of(node)) {
             link_changed();
         }
     }
+    deliver_signals_of(id);  // last: what they call may free this node
 }
 
 void HapticWorld::finish_recording(HapticRecorder& recorder) {
@@ -297,7 +323,7 @@ void HapticWorld::finish_recording(HapticRecorder& recorder) {
 
 // Scripts that are called on the way, when bodies move, may stop the world: the run stays until its work is
 // done.
-void HapticWorld::_process(double seconds) {
+void HapticWorld::process(double seconds) {
     catch_up();
     const std::shared_ptr<WorldRun> run = run_;
     if (run == nullptr || clock_ != CLOCK_REAL_TIME) {
@@ -306,6 +332,9 @@ void HapticWorld::_process(double seconds) {
     run->synchronise(std::max(seconds, shortest_way));
     if (run->trees_building() == 0) {
         let_go_of_former();
+    }
+    if (run->loop().is_running() && is_urgent() != run->loop().settings().realtime.keep_awake) {
+        loop_changed();
     }
     report_status(seconds);
     run->show();
@@ -389,6 +418,9 @@ PackedStringArray HapticWorld::_get_configuration_warnings() const {
     for_each_below(*this, [&warnings](Node& node) { warn_of(node, warnings); });
     if (is_inside_tree()) {
         warn(warnings, "This HapticWorld leaves something out", problem_of_outside(*this));
+        for (const std::string& problem : problems_across(*this)) {
+            warn(warnings, "This HapticWorld leaves something out", to_godot(problem));
+        }
     }
     if (find_below(*this, [](const Node& node) { return is_solid_body(&node); }) == nullptr) {
         warn(warnings, "This HapticWorld is empty", problem_of_emptiness(*this));

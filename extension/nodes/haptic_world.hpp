@@ -45,6 +45,7 @@ public:
     godot::Dictionary get_period_distribution() const;
     godot::Dictionary get_baseline_period_distribution() const;
     godot::PackedStringArray get_problems() const;
+    godot::String get_inputs_problem() const { return inputs_problem_; }
 
     // Bodies of this world, as RigidBody3D has it. Forces act for the time of one frame. A body comes as a
     // Variant, so that one that has been freed is an error and no pointer to freed memory.
@@ -65,7 +66,6 @@ public:
     godot::Vector3 get_linear_velocity(const godot::Variant& body) const;
     godot::Vector3 get_angular_velocity(const godot::Variant& body) const;
 
-    void _process(double seconds) override;
     godot::PackedStringArray _get_configuration_warnings() const override;
 
     // --- for the other nodes
@@ -93,7 +93,7 @@ protected:
 private:
     // What a change of a property asks for. It is done at the beginning of the next frame, or of advance():
     // many changes at once are one start, and none happens while something of the world is in use.
-    enum class Change { none, loop, world };
+    enum class Change : std::uint8_t { none, loop, world };
 
     // By the script's `method`; for_a_frame: see RunningWorld::push().
     void push(const char* method, const godot::Variant& body, const BodyPush& push, bool for_a_frame);
@@ -110,6 +110,9 @@ private:
     std::unique_ptr<InputRecording> record_inputs(const SessionSettings& settings);
     void start_loop();
     TickLoopSettings loop_settings() const;
+    bool is_urgent() const;
+    // In every frame. No virtual method: a script's _process() would take its place.
+    void process(double seconds);
     void node_added(const godot::Variant& node);
     void node_removed(const godot::Variant& node);
     void report_status(double seconds);
@@ -123,6 +126,7 @@ private:
     bool measure_baseline_ = false;
     godot::String inputs_path_;
     int starts_ = 0;  // with inputs that are recorded
+    godot::String inputs_problem_;
 
     // Null while nothing runs: in the editor, always. Shared with whoever is at work in it.
     std::shared_ptr<WorldRun> run_;

@@ -1,5 +1,6 @@
 #include "nodes/mesh_source.hpp"
 
+#include <algorithm>
 #include <godot_cpp/classes/array_mesh.hpp>
 #include <godot_cpp/classes/primitive_mesh.hpp>
 #include <godot_cpp/classes/rendering_server.hpp>
@@ -73,33 +74,53 @@ std::optional<LateSurface> raw_surface(const Ref<Mesh>& mesh, int surface) {
                        }};
 }
 
-bool is_of_triangles(const Ref<Mesh>& mesh) {
-    if (Object::cast_to<PrimitiveMesh>(mesh.ptr()) != nullptr) {
-        return mesh->get_class() != "PointMesh";
+Mesh::PrimitiveType primitive_of(const Ref<Mesh>& mesh, int surface) {
+    if (const auto* arrays = Object::cast_to<ArrayMesh>(mesh.ptr())) {
+        return arrays->surface_get_primitive_type(surface);
     }
-    const auto* arrays = Object::cast_to<ArrayMesh>(mesh.ptr());
-    for (int32_t i = 0; arrays != nullptr && i < mesh->get_surface_count(); ++i) {
-        if (arrays->surface_get_primitive_type(i) != Mesh::PRIMITIVE_TRIANGLES) {
-            return false;
-        }
-    }
-    return arrays != nullptr;
+    return mesh->get_class() == "PointMesh" ? Mesh::PRIMITIVE_POINTS : Mesh::PRIMITIVE_TRIANGLES;
+}
+
+// Whether its surfaces are read one by one. Others have only get_faces().
+bool has_surfaces(const Ref<Mesh>& mesh) {
+    return Object::cast_to<PrimitiveMesh>(mesh.ptr()) != nullptr ||
+           Object::cast_to<ArrayMesh>(mesh.ptr()) != nullptr;
 }
 
 }  // namespace
 
-// Godot's get_faces() knows strips, too, but builds a tree of its own: for a large mesh that takes seconds.
+std::optional<SurfaceCorners> corners_of(const Ref<Mesh>& mesh, int surface) {
+    const Mesh::PrimitiveType primitive = primitive_of(mesh, surface);
+    if (primitive != Mesh::PRIMITIVE_TRIANGLES && primitive != Mesh::PRIMITIVE_TRIANGLE_STRIP) {
+        return std::nullopt;
+    }
+    const Array arrays = mesh->surface_get_arrays(surface);
+    SurfaceCorners result{arrays[Mesh::ARRAY_VERTEX], arrays[Mesh::ARRAY_INDEX], arrays[Mesh::ARRAY_TEX_UV]};
+    if (primitive == Mesh::PRIMITIVE_TRIANGLE_STRIP) {
+        const std::vector<std::int32_t> list = triangles_of_strip(
+            span_of<std::int32_t>(result.indices), static_cast<std::size_t>(result.corners.size()));
+        if (list.empty()) {
+            return std::nullopt;
+        }
+        result.indices.resize(static_cast<int64_t>(list.size()));
+        std::ranges::copy(list, result.indices.ptrw());
+    }
+    return result;
+}
+
+// Godot's get_faces() builds a tree of its own: for a large mesh that takes seconds.
 std::shared_ptr<TriangleSource> source_of(const Ref<Mesh>& mesh) {
-    if (!is_of_triangles(mesh)) {
+    if (!has_surfaces(mesh)) {
         return source_of(mesh->get_faces());
     }
     std::vector<LateSurface> surfaces;
     for (int32_t i = 0; i < mesh->get_surface_count(); ++i) {
-        if (std::optional<LateSurface> raw = raw_surface(mesh, i)) {
+        std::optional<LateSurface> raw =
+            primitive_of(mesh, i) == Mesh::PRIMITIVE_TRIANGLES ? raw_surface(mesh, i) : std::nullopt;
+        if (raw) {
             surfaces.push_back(std::move(*raw));
-        } else {
-            const Array arrays = mesh->surface_get_arrays(i);
-            surfaces.push_back(surface_of(arrays[Mesh::ARRAY_VERTEX], arrays[Mesh::ARRAY_INDEX]));
+        } else if (const std::optional<SurfaceCorners> read = corners_of(mesh, i)) {
+            surfaces.push_back(surface_of(read->corners, read->indices));
         }
     }
     return source_of(std::move(surfaces));
@@ -107,15 +128,13 @@ std::shared_ptr<TriangleSource> source_of(const Ref<Mesh>& mesh) {
 
 std::shared_ptr<const SurfaceMap> surface_map_of(const Ref<Mesh>& mesh, const SurfaceParts& parts) {
     auto map = std::make_shared<SurfaceMap>();
-    for (int32_t i = 0; is_of_triangles(mesh) && i < mesh->get_surface_count(); ++i) {
-        const Array arrays = mesh->surface_get_arrays(i);
-        const PackedVector3Array corners = arrays[Mesh::ARRAY_VERTEX];
-        const PackedInt32Array indices = arrays[Mesh::ARRAY_INDEX];
-        const PackedVector2Array uv = arrays[Mesh::ARRAY_TEX_UV];
-        add(*map,
-            {static_cast<std::size_t>(i), span_of<PackedPlace>(corners).size(),
-             span_of<std::int32_t>(indices), span_of<std::array<float, 2>>(uv)},
-            parts);
+    for (int32_t i = 0; has_surfaces(mesh) && i < mesh->get_surface_count(); ++i) {
+        if (const std::optional<SurfaceCorners> read = corners_of(mesh, i)) {
+            add(*map,
+                {static_cast<std::size_t>(i), span_of<PackedPlace>(read->corners).size(),
+                 span_of<std::int32_t>(read->indices), span_of<std::array<float, 2>>(read->uv)},
+                parts);
+        }
     }
     return parts_of(*map) == SurfaceParts() ? nullptr : map;
 }

@@ -5,13 +5,25 @@
 
 #include <godot_cpp/classes/mesh.hpp>
 #include <godot_cpp/classes/ref.hpp>
+#include <godot_cpp/variant/packed_int32_array.hpp>
+#include <godot_cpp/variant/packed_vector2_array.hpp>
 #include <godot_cpp/variant/packed_vector3_array.hpp>
 #include <memory>
+#include <optional>
 
 #include "world/surface_feels.hpp"
 #include "world/triangle_source.hpp"
 
 namespace tactus {
+
+// The corners of a surface's triangles, three a triangle; those of a strip are taken apart.
+struct SurfaceCorners {
+    godot::PackedVector3Array corners;
+    godot::PackedInt32Array indices;  // none: each corner in turn
+    godot::PackedVector2Array uv;
+};
+// Nothing of points and lines, which have no triangles.
+std::optional<SurfaceCorners> corners_of(const godot::Ref<godot::Mesh>& mesh, int surface);
 
 std::shared_ptr<TriangleSource> source_of(const godot::Ref<godot::Mesh>& mesh);
 // Of its triangles as source_of() reads them; null where it has none of these parts.

@@ -42,6 +42,59 @@ ModelError read_error(const Dictionary& from) {
     return error;
 }
 
+// The dictionary's values are numbers, all finite.
+bool are_numbers(const Array& list) {
+    for (int64_t i = 0; i < list.size(); ++i) {
+        const Variant::Type type = list[i].get_type();
+        if ((type != Variant::INT && type != Variant::FLOAT) ||
+            !std::isfinite(static_cast<double>(list[i]))) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// Why what is wrong of one body cannot be read; empty where it can.
+String problem_of_error(const String& key, const Variant& value) {
+    const bool is_move = key == "move", is_turn = key == "turn";
+    if (is_move || is_turn) {
+        const int64_t count = is_move ? 3 : 4;
+        const Array list = value.get_type() == Variant::ARRAY ? static_cast<Array>(value) : Array();
+        return list.size() == count && are_numbers(list)
+                   ? String()
+                   : String(is_move ? "move must be [x, y, z] in meters"
+                                    : "turn must be [x, y, z, degrees]: an axis and an angle");
+    }
+    if (key != "mass" && key != "friction" && key != "touch_friction" && key != "stiffness") {
+        return "there is no '" + key +
+               "': it is one of move, turn, mass, friction, touch_friction, stiffness";
+    }
+    Array one;
+    one.push_back(value);
+    return are_numbers(one) && static_cast<double>(value) >= 0.0
+               ? String()
+               : "'" + key + String("' must be a factor: a number of at least 0");
+}
+
+String problem_of_errors(const Dictionary& errors) {
+    const Array bodies = errors.keys();
+    for (int64_t i = 0; i < bodies.size(); ++i) {
+        const String body = bodies[i];
+        if (errors[bodies[i]].get_type() != Variant::DICTIONARY) {
+            return "of '" + body + "' it must be a dictionary";
+        }
+        const Dictionary wrong = errors[bodies[i]];
+        const Array keys = wrong.keys();
+        for (int64_t j = 0; j < keys.size(); ++j) {
+            const String problem = problem_of_error(keys[j], wrong[keys[j]]);
+            if (!problem.is_empty()) {
+                return "of '" + body + "': " + problem;
+            }
+        }
+    }
+    return String();
+}
+
 }  // namespace
 
 // --- properties
@@ -88,6 +141,15 @@ void MMTLink::set_key_file(const String& path) {
     }
     key_file_ = file;
     changed();
+}
+
+void MMTLink::set_model_errors(const Dictionary& errors) {
+    if (const String problem = problem_of_errors(errors); !problem.is_empty()) {
+        refuse(*this, "model_errors", errors, from_godot(problem).c_str());
+        return;
+    }
+    model_errors_ = errors.duplicate(true);
+    restart_world();
 }
 
 template <class Values>
@@ -159,7 +221,8 @@ NetworkSettings MMTLink::network_settings() const {
     settings.udp = with_usual_ports(settings.udp, is_operator());
     if (conditions_.is_valid()) {
         settings.conditions = conditions_->conditions();
-        settings.seed = conditions_->seed();
+        // Each side emulates the way that ends there.
+        settings.seed = luck_of(conditions_->seed(), is_operator() ? Way::to_operator : Way::to_teleoperator);
     }
     return settings;
 }
@@ -321,6 +384,9 @@ PackedStringArray MMTLink::_get_configuration_warnings() const {
     warn(warnings, "This MMTLink does nothing", problem());
     if (conditions_.is_valid()) {
         warn(warnings, "The conditions of this MMTLink emulate no trace", conditions_->trace_problem());
+        for (const std::string& note : conditions_->notes()) {
+            warn(warnings, "The conditions of this MMTLink are not all that they read", to_godot(note));
+        }
     }
     const HapticWorld* world = HapticWorld::above(this);
     if (world != nullptr && scaling_of(frame_of(world->get_global_transform())) != Mat3(1.0)) {

@@ -71,6 +71,8 @@ public:
     bool has_robots() const { return scenario_ == SCENARIO_ROBOT || scenario_ == SCENARIO_MMT_ROBOT; }
     bool is_operator() const { return side_ == SIDE_OPERATOR; }
     LinkPlan plan();
+    void set_model_errors(const godot::Dictionary& errors);
+    godot::Dictionary get_model_errors() const { return model_errors_; }
     // By the name of the object.
     std::unordered_map<std::string, ModelError> model_errors() const;
     // Why it does nothing; empty where there is no reason.

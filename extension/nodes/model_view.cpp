@@ -17,9 +17,23 @@ namespace {
 
 const Color picture_color(0.28F, 0.32F, 0.38F);
 
+// Rigid bodies below it stay where they are. May call a script, which may free any of them.
 void place(const ModelRoll::Shown& shown, const Pose& pose) {
-    if (auto* node = node_of_id<Node3D>(shown.node)) {
-        node->set_global_transform(to_godot(pose, shown.scaling));
+    auto* node = node_of_id<Node3D>(shown.node);
+    if (node == nullptr) {
+        return;
+    }
+    std::vector<std::pair<std::uint64_t, Transform3D>> below;
+    for (const std::uint64_t id : shown.carried) {
+        if (const auto* carried = node_of_id<Node3D>(id); carried != nullptr && carried->is_inside_tree()) {
+            below.emplace_back(id, carried->get_global_transform());
+        }
+    }
+    node->set_global_transform(to_godot(pose, shown.scaling));
+    for (const auto& [id, at] : below) {
+        if (auto* carried = node_of_id<Node3D>(id); carried != nullptr && carried->is_inside_tree()) {
+            carried->set_global_transform(at);
+        }
     }
 }
 
@@ -32,7 +46,9 @@ void hide(const ModelRoll::Shown& shown) {
 }  // namespace
 
 void ModelView::scene_changed(const Node& node) {
-    is_scene_new_ |= is_solid_body(&node);
+    const bool is_body = is_solid_body(&node);
+    is_scene_new_ |= is_body;
+    shows_other_scene_ |= is_body || roll_.body_of(node.get_instance_id()) != no_handle;
 }
 
 void ModelView::hold_still() {
@@ -78,6 +94,11 @@ ModelRoll::Shown ModelView::show(const std::string& name, const ModelRoll::Form&
     if (const CollisionObject3D* body = scene_body(name)) {
         shown.node = body->get_instance_id();
         shown.scaling = scaling_of(frame_of(body->get_global_transform()));
+        for_each_below(*body, [&shown](const Node& node) {
+            if (Object::cast_to<RigidBody3D>(&node) != nullptr) {
+                shown.carried.push_back(node.get_instance_id());
+            }
+        });
     } else {
         shown.node = make_picture(name, form)->get_instance_id();
         shown.is_picture = true;
@@ -89,10 +110,30 @@ ModelRoll::Shown ModelView::show(const std::string& name, const ModelRoll::Form&
 std::vector<ModelNews> ModelView::update(const std::vector<ModelObject>& objects) {
     return roll_.update(
         objects, [this](const std::string& name, const ModelRoll::Form& form) { return show(name, form); },
-        hide);
+        hide,
+        [this](const std::string& name, const ModelRoll::Shown& shown) { return is_shown(name, shown); });
 }
 
-void ModelView::show(const BodyState& state, std::uint64_t) {
+bool ModelView::is_shown(const std::string& name, const ModelRoll::Shown& shown) const {
+    const CollisionObject3D* const body = scene_body(name);
+    if (body != nullptr) {
+        return body->get_instance_id() == shown.node;
+    }
+    auto* const picture = node_of_id<Node>(shown.node);
+    return shown.is_picture && picture != nullptr && world_.is_ancestor_of(picture);
+}
+
+std::vector<const Node*> ModelView::bodies_only_here() const {
+    std::vector<const Node*> all;
+    for_each_below(world_, [&](const Node& node) {
+        if (is_solid_body(&node) && roll_.body_of(node.get_instance_id()) == no_handle) {
+            all.push_back(&node);
+        }
+    });
+    return all;
+}
+
+void ModelView::show(const BodyState& state, std::uint64_t, Session&) {
     ModelRoll::Shown* const shown = roll_.shown(state.handle);
     if (shown == nullptr || std::exchange(shown->changed_at, state.changed_at) == state.changed_at) {
         return;

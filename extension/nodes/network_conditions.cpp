@@ -35,6 +35,10 @@ LinkConditions NetworkConditions::conditions() const {
     return conditions;
 }
 
+std::vector<std::string> NetworkConditions::notes() const {
+    return notes_on(conditions(), values_.burst_loss, values_.burst_length);
+}
+
 String NetworkConditions::trace_problem() const {
     if (values_.link.shape != JitterShape::trace || trace_ != nullptr) {
         return String();

@@ -30,7 +30,8 @@ public:
     ClockSkew skew() const { return values_.skew; }
     std::uint64_t seed() const { return values_.seed; }
     std::shared_ptr<const DelayTrace> trace() const { return trace_; }
-    godot::String trace_problem() const;  // empty where there is none
+    std::vector<std::string> notes() const;  // see notes_on()
+    godot::String trace_problem() const;     // empty where there is none
 
 protected:
     static void _bind_methods();

@@ -32,7 +32,7 @@ void declare(const char* name, const Variant& initial, PropertyHint hint, const 
 }  // namespace
 
 void declare_project_settings() {
-    declare(force_limit, 0.0, PROPERTY_HINT_RANGE, "0,40,0.1,or_greater,suffix:N");
+    declare(force_limit, 0.0, PROPERTY_HINT_RANGE, "0,40,0.1,or_greater,suffix:N (0: no limit)");
     declare(real_time, true, PROPERTY_HINT_NONE, "");
 }
 

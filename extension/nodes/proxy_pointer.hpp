@@ -37,7 +37,9 @@ public:
     godot::Vector3 get_hand_position() const { return to_godot(state_.hand); }
     godot::Vector3 get_proxy_position() const { return to_godot(state_.position); }
     bool is_touching() const { return has(proxy_touching); }
-    bool is_present() const { return state_.handle != no_handle && !has(proxy_absent) && !has(touch_unheld); }
+    bool is_present() const {
+        return state_.handle != no_handle && !has(proxy_absent) && !has(touch_unheld | far_hand_away);
+    }
     bool is_being_let_out() const { return has(proxy_letting_out); }
     bool is_squeezed() const { return has(proxy_squeezed); }
     bool is_field_limited() const { return has(touch_field_limited); }
@@ -62,6 +64,7 @@ public:
     using Touched = TouchedBodies<HandForce::max_contacts>;
     void take_state(const ProxyState& state, const Touched::Ids& bodies);
     void clear_state();
+    void end_contact(std::uint64_t node) { touched_.end(*this, node); }
     // Its hand began inside a body.
     bool is_kept_out() const { return has(proxy_absent); }
     void clear_force() { state_.force = Vec3(0.0); }

@@ -7,6 +7,7 @@
 #include "devices/driver_device.hpp"
 #include "nodes/body_watch.hpp"
 #include "nodes/conversions.hpp"
+#include "nodes/input_watch.hpp"
 #include "nodes/project_settings.hpp"
 #include "nodes/signals.hpp"
 #include "realtime/workers.hpp"
@@ -21,6 +22,7 @@ void register_classes(godot::ModuleInitializationLevel level) {
     }
     declare_project_settings();
     GDREGISTER_INTERNAL_CLASS(BodyWatch);
+    GDREGISTER_INTERNAL_CLASS(InputWatch);
     register_public_classes();
     DriverDevice::when_left_behind(
         [](const std::string& text) { godot::UtilityFunctions::push_error(to_godot(text)); });

@@ -4,6 +4,7 @@
 
 #include "nodes/body_parts.hpp"
 #include "nodes/godot_joint.hpp"
+#include "nodes/passed_over.hpp"
 #include "nodes/scene_warnings.hpp"
 #include "nodes/tree_walk.hpp"
 
@@ -23,6 +24,24 @@ void SceneBodies::scene_changed(const Node& node) {
     }
 }
 
+void SceneBodies::say_passed_over(const Node& node) {
+    for (const std::string& problem : passed_over(node)) {
+        scene_.complaints.say(node, problem);
+    }
+}
+
+std::vector<std::string> SceneBodies::problems() const {
+    std::vector<std::string> all = mirrors_.problems();
+    for_each_below(scene_.world, [&all](const Node& node) {
+        if (!is_solid_body(&node)) {
+            for (const std::string& problem : passed_over(node)) {
+                all.push_back(from_godot(name_of(node)) + ": " + problem);
+            }
+        }
+    });
+    return all;
+}
+
 void SceneBodies::find(Session& session) {
     std::vector<std::uint64_t> bodies, joints;
     for_each_below(scene_.world, [&](Node& node) {
@@ -31,7 +50,7 @@ void SceneBodies::find(Session& session) {
         } else if (Object::cast_to<Joint3D>(&node) != nullptr) {
             joints.push_back(node.get_instance_id());
         } else if (is_first_look_) {
-            scene_.complaints.say(node, problem_of_kind(node));
+            say_passed_over(node);
         }
     });
     is_first_look_ = false;
@@ -48,7 +67,7 @@ void SceneBodies::synchronise(MirrorContext context) {
     for (const std::uint64_t id : std::exchange(others_, {})) {
         auto* other = node_of_id<Node>(id);
         if (other != nullptr && scene_.world.is_ancestor_of(other)) {
-            scene_.complaints.say(*other, problem_of_kind(*other));
+            say_passed_over(*other);
         }
     }
     if (std::exchange(tree_changed_, false)) {

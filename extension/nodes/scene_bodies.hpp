@@ -18,9 +18,11 @@ public:
     void scene_changed(const godot::Node& node) override;
     SessionHandle body_of(std::uint64_t node) const override { return mirrors_.body_of(node); }
     std::uint64_t node_of(SessionHandle body) const override { return mirrors_.node_of(body); }
-    std::size_t body_count() const override { return mirrors_.bodies().size(); }
+    std::size_t body_count() const override { return mirrors_.in_session(); }
     void begin_to_show() override;
-    void show(const BodyState& state, std::uint64_t tick) override { mirrors_.show(state, tick); }
+    void show(const BodyState& state, std::uint64_t tick, Session& session) override {
+        mirrors_.show(state, tick, session);
+    }
     void release(Session& session) override { mirrors_.release(session); }
 
     // Brings the session up to date with all that stands below the world.
@@ -28,10 +30,13 @@ public:
 
     BodyMirrors& mirrors() { return mirrors_; }
     const BodyMirrors& mirrors() const { return mirrors_; }
+    // Of its bodies and joints, and of what else stands below the world; each names its node.
+    std::vector<std::string> problems() const;
     godot::CollisionObject3D* node(std::size_t index) const;  // of mirrors().bodies(); null: it is gone
 
 private:
     void find(Session& session);
+    void say_passed_over(const godot::Node& node);
 
     GodotScene scene_;
     BodyMirrors mirrors_;

@@ -21,7 +21,7 @@ public:
     // The states of a snapshot are shown next.
     virtual void begin_to_show() {}
     // `tick` is the tick of the snapshot that the state is from. May call a script.
-    virtual void show(const BodyState& state, std::uint64_t tick) = 0;
+    virtual void show(const BodyState& state, std::uint64_t tick, Session& session) = 0;
     // Gives all back to Godot's own physics.
     virtual void release(Session& session) = 0;
 };

@@ -1,7 +1,10 @@
 #include "nodes/scene_warnings.hpp"
 
 #include <godot_cpp/classes/engine.hpp>
+#include <godot_cpp/classes/joint3d.hpp>
+#include <godot_cpp/classes/rigid_body3d.hpp>
 #include <godot_cpp/classes/scene_tree.hpp>
+#include <godot_cpp/classes/static_body3d.hpp>
 #include <godot_cpp/classes/time.hpp>
 #include <godot_cpp/classes/window.hpp>
 #include <godot_cpp/core/object.hpp>
@@ -106,6 +109,9 @@ const Node* body_outside(const Node& top, Outside which) {
                 Object::cast_to<HapticMaterial>(
                     material_of(*Object::cast_to<CollisionObject3D>(&node)).ptr()) != nullptr);
     };
+    if (Object::cast_to<HapticWorld>(&top) != nullptr) {
+        return nullptr;
+    }
     const Node* found = is_one(top) ? &top : nullptr;
     const auto look = [&](const Node& node) {
         const bool is_world = Object::cast_to<HapticWorld>(&node) != nullptr;
@@ -183,6 +189,46 @@ String problem_of_outside(const HapticWorld& world) {
                                     "every HapticWorld: put it below one";
 }
 
+std::vector<std::string> problems_across(const HapticWorld& world) {
+    std::uint32_t fallen_on = 0;  // layers that the world's bodies would lie on
+    for_each_below(world, [&fallen_on](const Node& node) {
+        if (const auto* body = Object::cast_to<RigidBody3D>(&node);
+            body != nullptr && !body->is_freeze_enabled()) {
+            fallen_on |= body->get_collision_mask();
+        }
+    });
+    std::vector<std::string> all;
+    const auto look = [&](const Node& node) {
+        const std::string name = "'" + from_godot(String(node.get_name())) + "' ";
+        if (Object::cast_to<HapticWorld>(&node) != nullptr) {
+            return Walk::past;
+        }
+        const auto* joint = Object::cast_to<Joint3D>(&node);
+        for (const NodePath& path : joint != nullptr ? std::vector{joint->get_node_a(), joint->get_node_b()}
+                                                     : std::vector<NodePath>()) {
+            Node* const body = path.is_empty() ? nullptr : joint->get_node_or_null(path);
+            if (body != nullptr && world.is_ancestor_of(body)) {
+                all.push_back(name + "stands outside of the HapticWorld that moves '" +
+                              from_godot(String(body->get_name())) +
+                              "', and does not hold it: put the joint below that world");
+                break;
+            }
+        }
+        const auto* floor = Object::cast_to<StaticBody3D>(&node);
+        if (floor != nullptr && (floor->get_collision_layer() & fallen_on) != 0) {
+            all.push_back(
+                name +
+                "stands outside of every HapticWorld, and the world's bodies pass through it: put it "
+                "below the world, or take its layer out of their masks");
+        }
+        return Walk::on;
+    };
+    if (Object::cast_to<HapticWorld>(&top_of(world)) == nullptr) {
+        walk_below(top_of(world), look);
+    }
+    return all;
+}
+
 SceneReading read_scene(const HapticWorld& world, const Vec3& hand, double radius) {
     SceneReading scene;
     for_each_below(world, [&](Node& node) {
@@ -220,27 +266,6 @@ void watch_warnings(Node& node) {
     if (!node.get_tree()->is_connected("process_frame", look)) {
         node.get_tree()->connect("process_frame", look);
     }
-}
-
-String problem_of_kind(const Node& node) {
-    struct Kind {
-        const char* name;
-        const char* problem;
-    };
-    static constexpr Kind kinds[] = {
-        {"GridMap", "a GridMap is not carried over: give its tiles as StaticBody3D nodes with shapes"},
-        {"SoftBody3D", "a SoftBody3D is not carried over: touch a StaticBody3D or RigidBody3D in its place"},
-        {"Area3D", "an Area3D is not solid and is not felt: use a StaticBody3D for what is to be touched"},
-    };
-    for (const Kind& kind : kinds) {
-        if (node.is_class(kind.name)) {
-            return kind.problem;
-        }
-    }
-    return node.is_class("CSGShape3D") && static_cast<bool>(node.get("use_collision"))
-               ? "a " + node.get_class() +
-                     " is not carried over: bake its collision shape (menu CSG) into a StaticBody3D"
-               : String();
 }
 
 }  // namespace tactus

@@ -3,6 +3,8 @@
 
 #include <godot_cpp/classes/node.hpp>
 #include <godot_cpp/variant/string.hpp>
+#include <string>
+#include <vector>
 
 #include "world/scene_facts.hpp"
 
@@ -20,6 +22,9 @@ godot::String problem_without_world(const godot::Node& node);
 godot::String problem_of_emptiness(const HapticWorld& world);
 
 // Why a body that is made to be felt is not, as it stands outside of every world; empty where none does.
+// Joints that stand outside of the world and lead to its bodies, and what its bodies fall through; each names
+// its node.
+std::vector<std::string> problems_across(const HapticWorld& world);
 godot::String problem_of_outside(const HapticWorld& world);
 
 // The bodies below a world as they stand, whether it runs or not.
@@ -32,9 +37,5 @@ SceneReading read_scene(const HapticWorld& world, const Vec3& hand, double radiu
 // In the editor: the node's warnings are asked for every half second, and shown anew when they are other
 // ones. In the game: says once, when the first frames have passed, that there is no world.
 void watch_warnings(godot::Node& node);
-
-// Why this node of a world cannot be touched, though it looks as if it could; empty where that does not
-// apply.
-godot::String problem_of_kind(const godot::Node& node);
 
 }  // namespace tactus

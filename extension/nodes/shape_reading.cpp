@@ -39,9 +39,11 @@ std::optional<Shape> plain_shape(Object* object) {
     }
     if (const auto* map = Object::cast_to<godot::HeightMapShape3D>(object)) {
         const godot::PackedFloat32Array data = map->get_map_data();
+        auto heights = std::make_shared<std::vector<float>>(data.ptr(), data.ptr() + data.size());
+        std::ranges::replace_if(*heights, is_hole, hole_height);
         return HeightFieldShape{static_cast<std::uint32_t>(map->get_map_width()),
                                 static_cast<std::uint32_t>(map->get_map_depth()), Vec3(1.0),
-                                std::make_shared<std::vector<float>>(data.ptr(), data.ptr() + data.size())};
+                                std::move(heights)};
     }
     if (const auto* boundary = Object::cast_to<godot::WorldBoundaryShape3D>(object)) {
         const godot::Plane plane = boundary->get_plane();

@@ -67,6 +67,20 @@ void deliver_signals() {
     }
 }
 
+// In their order, and all others in theirs.
+void deliver_signals_of(std::uint64_t object) {
+    const auto is_of_it = [object](const Posted& signal) {
+        return std::ranges::any_of(signal.arguments,
+                                   [object](const SignalArgument& one) { return one.is(object); });
+    };
+    for (auto next = std::ranges::find_if(posted(), is_of_it); next != posted().end();
+         next = std::ranges::find_if(posted(), is_of_it)) {
+        const Posted signal = std::move(*next);
+        posted().erase(next);
+        send(signal);
+    }
+}
+
 void forget_signals() {
     posted().clear();
 }

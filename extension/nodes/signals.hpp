@@ -2,7 +2,8 @@
 // handler may free, remove, restart or change whatever it likes. Main thread only.
 //
 // What is posted is sent when Godot's frame has come to its end, or earlier by deliver_signals(), in the
-// order of posting. What is gone by then sends nothing, and nothing is sent about nodes that are gone.
+// order of posting. What is gone by then sends nothing, and nothing is sent about nodes that are gone: what
+// is to be sent about one that goes is sent while it leaves the tree, as Area3D sends body_exited.
 #pragma once
 
 #include <cstdint>
@@ -24,6 +25,7 @@ public:
         return argument;
     }
 
+    bool is(std::uint64_t object) const { return object_ == object; }
     bool is_gone() const { return object_ != 0 && godot::ObjectDB::get_instance(object_) == nullptr; }
     godot::Variant value() const {
         return object_ != 0 ? godot::Variant(godot::ObjectDB::get_instance(object_)) : value_;
@@ -44,6 +46,9 @@ void post_touch_changes(const godot::Object& from, const std::set<std::uint64_t>
 
 // At the end of what a script has called: nothing may be used after it that a handler could free.
 void deliver_signals();
+
+// Those about one object, which is about to go: nothing could be sent about it later. As deliver_signals().
+void deliver_signals_of(std::uint64_t object);
 
 // Before the engine goes.
 void forget_signals();

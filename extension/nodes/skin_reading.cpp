@@ -6,6 +6,7 @@
 #include <godot_cpp/classes/skin_reference.hpp>
 
 #include "nodes/conversions.hpp"
+#include "nodes/mesh_source.hpp"
 
 namespace tactus {
 
@@ -18,11 +19,12 @@ std::vector<Value> values_of(const Packed& packed) {
     return {packed.ptr(), packed.ptr() + packed.size()};
 }
 
-SkinCollector::Surface surface_of(const Ref<Mesh>& mesh, int32_t index, bool are_relative) {
+SkinCollector::Surface surface_of(const Ref<Mesh>& mesh, int32_t index, const SurfaceCorners& corners,
+                                  bool are_relative) {
     const Array arrays = mesh->surface_get_arrays(index);
     SkinCollector::Surface surface;
-    surface.corners = from_godot(PackedVector3Array(arrays[Mesh::ARRAY_VERTEX]));
-    surface.indices = values_of<std::int32_t>(PackedInt32Array(arrays[Mesh::ARRAY_INDEX]));
+    surface.corners = from_godot(corners.corners);
+    surface.indices = values_of<std::int32_t>(corners.indices);
     surface.bones = values_of<std::int32_t>(PackedInt32Array(arrays[Mesh::ARRAY_BONES]));
     surface.weights = values_of<float>(PackedFloat32Array(arrays[Mesh::ARRAY_WEIGHTS]));
     const Array shapes = mesh->surface_get_blend_shape_arrays(index);
@@ -65,8 +67,8 @@ std::shared_ptr<const SkinnedMesh> skinned_mesh_of(const Ref<Mesh>& mesh) {
     const bool are_relative =
         arrays != nullptr && arrays->get_blend_shape_mode() == Mesh::BLEND_SHAPE_MODE_RELATIVE;
     for (int32_t i = 0; i < mesh->get_surface_count(); ++i) {
-        if (arrays == nullptr || arrays->surface_get_primitive_type(i) == Mesh::PRIMITIVE_TRIANGLES) {
-            collector.add(surface_of(mesh, i, are_relative));
+        if (const std::optional<SurfaceCorners> corners = corners_of(mesh, i)) {
+            collector.add(surface_of(mesh, i, *corners, are_relative));
         }
     }
     auto skinned = std::make_shared<SkinnedMesh>(collector.take());

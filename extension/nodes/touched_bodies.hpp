@@ -2,6 +2,7 @@
 // only.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <godot_cpp/core/object.hpp>
@@ -28,6 +29,14 @@ public:
         now.erase(0);
         const std::set<std::uint64_t> before = std::exchange(told_, std::move(now));
         post_touch_changes(from, before, told_);
+    }
+
+    // Posts "contact_ended" for what is about to go, where it is touched.
+    void end(const godot::Object& from, std::uint64_t id) {
+        std::ranges::replace(ids_, id, std::uint64_t{0});
+        if (told_.erase(id) != 0) {
+            post_touch_changes(from, {id}, {});
+        }
     }
 
     // Of the state that the ids were taken with.

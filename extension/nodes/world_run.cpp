@@ -1,6 +1,7 @@
 #include "nodes/world_run.hpp"
 
 #include <algorithm>
+#include <godot_cpp/classes/engine.hpp>
 #include <map>
 
 #include "core/haptics/touch_values.hpp"
@@ -23,6 +24,9 @@ namespace {
 
 constexpr const char* too_many_recordings =
     "eight recorders and feedbacks listen to this world already: take one of them away";
+
+constexpr const char* only_here =
+    "the far side does not have it, so that hands pass through it: add it there, or take it away here";
 
 // Marks a time in which the same is not to be begun again.
 class Busy {
@@ -122,17 +126,29 @@ void WorldRun::look_at_scene() {
         return;
     }
     const BodyMirrors& mirrors = bodies_.mirrors();
+    if (mirrors.without_place() > 0) {
+        complaints_.say(world_,
+                        "it has more bodies than it takes, and some are left out: raise 'max_bodies' "
+                        "(get_problems() counts them)");
+    }
+    for (const auto& [body, problem] : mirrors.fallen_through()) {
+        body->say(problem);
+    }
     const SceneFacts facts = mirrors.facts();
     hands_->look_at_scene(facts, complaints_);
     if (mirrors.bodies().empty()) {
         complaints_.say(world_, problem_of_emptiness(world_));
     } else if (looks_ == first) {
         complaints_.say(world_, problem_of_outside(world_));
+        for (const std::string& problem : problems_across(world_)) {
+            complaints_.say(world_, problem);
+        }
     }
 }
 
 void WorldRun::synchronise_bodies(double seconds) {
     running_.push_for(seconds);
+    complaints_.say(world_, problem_of_time());
     const BodyDefaults defaults = world_.body_defaults();
     if (!same_values(defaults.touch, defaults_.touch) || !same_detail(defaults.detail, defaults_.detail)) {
         bodies_.mirrors().note_all_changed();
@@ -143,7 +159,10 @@ void WorldRun::synchronise_bodies(double seconds) {
     const std::uint64_t takes_effect = loop().ticks() + (loop().is_real_time() ? 2 : 1);
     MirrorContext context{session(), Workers::shared(), defaults_, seconds, takes_effect};
     context.touch_radius = hands_->smallest_radius();
+    context.ticks = loop().ticks() > 0 || !loop().is_real_time();
+    context.together = loop().is_real_time();
     bodies_.synchronise(context);
+    waited_ += context.ticks || trees_building() == 0 ? 0.0 : seconds;
 }
 
 // --- the far side
@@ -165,12 +184,39 @@ void WorldRun::synchronise_links() {
         const bool has_new_objects =
             running_.synchronise(*links[i], node != nullptr ? std::optional(node->plan()) : std::nullopt,
                                  from_godot(world_.get_gravity()));
-        if (has_new_objects) {
+        if (has_new_objects || (model_ != nullptr && model_->takes_scene_change())) {
             std::ranges::move(model_->update(links[i]->objects()), std::back_inserter(model_news_));
+            model_changed_ = loop().now();
+            is_model_compared_ = false;
         }
     }
+    compare_model();
     if (model_ == nullptr) {
         tell(bodies_.mirrors(), links, session().snapshot(), loop().now());
+    }
+}
+
+// All that was sent so far is there in the first tick.
+bool WorldRun::may_begin() {
+    const bool is_new = loop().ticks() == 0;
+    if (is_new && trees_building() > 0) {
+        return false;
+    }
+    if (is_new) {
+        session().settle();
+    }
+    return true;
+}
+
+// Once the far side has described nothing more for a while.
+void WorldRun::compare_model() {
+    constexpr Nanoseconds settled_after = 2 * nanoseconds_per_second;
+    if (model_ == nullptr || model_->body_count() == 0 || loop().now() - model_changed_ < settled_after ||
+        std::exchange(is_model_compared_, true)) {
+        return;
+    }
+    for (const Node* const body : model_->bodies_only_here()) {
+        complaints_.say(*body, only_here);
     }
 }
 
@@ -208,6 +254,7 @@ void WorldRun::give_ticks(const NodeType& node, const std::shared_ptr<TickRing>&
 
 void WorldRun::node_removed(const Node& node) {
     const std::uint64_t id = node.get_instance_id();
+    hands_->end_contacts(id);
     hands_->forget(id, session());
     running_.listeners().end(session(), id);
     std::ranges::replace(link_nodes_, id, std::uint64_t{0});
@@ -251,7 +298,7 @@ void WorldRun::show() {
 void WorldRun::show_bodies(const SessionSnapshot& snapshot) {
     view().begin_to_show();
     for (std::size_t i = 0; i < snapshot.body_count && !is_over(); ++i) {
-        view().show(snapshot.bodies[i], snapshot.tick);
+        view().show(snapshot.bodies[i], snapshot.tick, session());
     }
 }
 
@@ -291,12 +338,58 @@ void WorldRun::ask_effects() {
     }
 }
 
+// Devices and hands have the time of the clock.
+std::string WorldRun::problem_of_time() const {
+    const bool differs = loop().is_real_time() && Engine::get_singleton()->get_time_scale() != 1.0;
+    return differs ? "'Engine.time_scale' is not 1, and a HapticWorld in real time keeps to the clock: what "
+                     "scripts move and what it moves disagree; leave it at 1, or set the world's clock to "
+                     "CLOCK_STEPPED "
+                     "and advance it"
+                   : "";
+}
+
+namespace {
+
+// An error of a body that the far side has not described changes nothing.
+std::vector<std::string> problems_of_errors(const MMTLink& link, const std::vector<ModelObject>& objects) {
+    std::vector<std::string> problems;
+    std::string known;
+    for (const ModelObject& object : objects) {
+        known += (known.empty() ? "" : ", ") + object.name;
+    }
+    for (const auto& [name, error] : link.model_errors()) {
+        if (!objects.empty() && std::ranges::find(objects, name, &ModelObject::name) == objects.end()) {
+            problems.push_back(from_godot(name_of(link)) + ": model_errors names '" + name +
+                               "', which the far side does not have: it has " + known);
+        }
+    }
+    return problems;
+}
+
+}  // namespace
+
 std::vector<std::string> WorldRun::problems() const {
     std::vector<std::string> all;
     for (const auto& link : running_.links()) {
         std::ranges::move(link->problems(), std::back_inserter(all));
     }
-    std::ranges::move(bodies_.mirrors().problems(), std::back_inserter(all));
+    if (model_ == nullptr) {
+        std::ranges::move(bodies_.problems(), std::back_inserter(all));
+        std::ranges::move(problems_across(world_), std::back_inserter(all));
+    }
+    if (std::string slow = problem_of_time(); !slow.empty()) {
+        all.push_back(std::move(slow));
+    }
+    if (model_ != nullptr && model_->body_count() > 0) {
+        for (const Node* const body : model_->bodies_only_here()) {
+            all.push_back(from_godot(name_of(*body)) + ": " + only_here);
+        }
+    }
+    const auto* const link = model_ != nullptr ? node_of_id<MMTLink>(link_nodes_.front()) : nullptr;
+    if (link != nullptr) {
+        std::ranges::move(problems_of_errors(*link, running_.links().front()->objects()),
+                          std::back_inserter(all));
+    }
     return all;
 }
 

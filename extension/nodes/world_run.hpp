@@ -43,6 +43,11 @@ public:
 
     // Ticks stop for a while: nothing pushes the hand meanwhile.
     void pause();
+    // Real time: whether the loop may make its first tick. Nothing moves, and no proxy, before the trees are
+    // built that were there when the world began.
+    bool may_begin();
+    // For these trees, so far (unit: seconds).
+    double waited() const { return waited_; }
 
     // Passes on what changed in the scene tree; `seconds`: since the last call.
     void synchronise(double seconds);
@@ -71,11 +76,15 @@ public:
     std::size_t body_count() { return view().body_count(); }
     std::size_t trees_building() const { return bodies_.mirrors().building(); }  // bodies wait
     std::vector<std::string> problems() const;                                   // each names its node
+    // The loop has to be on time: a hand of this world is given forces.
+    bool displays_forces() const { return hands_->displays_forces() || !running_.links().empty(); }
 
 private:
     SceneView& view() { return model_ != nullptr ? static_cast<SceneView&>(*model_) : bodies_; }
+    std::string problem_of_time() const;
     void synchronise_bodies(double seconds);
     void look_at_scene();
+    void compare_model();
     void synchronise_recorders();
     template <class NodeType>
     void give_ticks(const NodeType& node, const std::shared_ptr<TickRing>& ring, SessionHandle body);
@@ -88,6 +97,8 @@ private:
     RunningWorld running_;
     std::unique_ptr<ModelView> model_;   // at the operator; else null
     std::vector<ModelNews> model_news_;  // for its link's node
+    Nanoseconds model_changed_ = 0;      // when it did last
+    bool is_model_compared_ = false;     // since then
     bool is_busy_ = false;
 
     Complaints complaints_;
@@ -96,6 +107,7 @@ private:
     std::uint64_t recorder_ = 0;  // id of the HapticRecorder that records this world
     BodyDefaults defaults_;       // as of the last frame
     std::uint32_t looks_ = 0;     // synchronise() so far
+    double waited_ = 0.0;
 };
 
 }  // namespace tactus

@@ -20,6 +20,8 @@ struct BodyRecord {
     bool may_be_dynamic = false;          // its shape and mass are those of a body that forces can move
     JPH::MassProperties mass_properties;  // in Jolt's units
     double mass = 0.0;                    // (unit: kilograms); 0 for what cannot move
+    double linear_damping = 0.0;          // (unit: 1/seconds)
+    double angular_damping = 0.0;         // (unit: 1/seconds)
     BodyFactors factors;
     CollisionLayers collision;
     std::size_t layer_pair = 0;    // index in the world's CollisionTable

@@ -9,7 +9,11 @@
 #include <Jolt/Physics/Body/Body.h>
 #include <Jolt/Physics/Collision/ContactListener.h>
 
+#include <vector>
+
 namespace tactus {
+
+struct BodyRecord;
 
 // Jolt keeps one number for each; a negative one stands for rough or absorbent, as inside Godot.
 inline float stored_friction(const SurfaceMaterial& material) {
@@ -26,25 +30,51 @@ float combined_friction(const JPH::Body& a, const JPH::SubShapeID&, const JPH::B
 float combined_restitution(const JPH::Body& a, const JPH::SubShapeID&, const JPH::Body& b,
                            const JPH::SubShapeID&);
 
-// Gives a body endless mass towards those that its mask does not hold. Asked for every contact in every step,
-// so the world uses it only while some pair of bodies could need it.
-class OneSidedContacts final : public JPH::ContactListener {
+// What a contact of one point (contact_points.hpp) is told before Jolt solves it.
+//
+// A body has endless mass towards those that its mask does not hold.
+//
+// Friction acts against the velocity of the point. Jolt finds it along two tangents, each by the mass K_i^-1
+// that the bodies have there along it, and cuts the sum to mu N. A point off the center of mass has different
+// masses along the two, which turns the friction of a sliding one by up to 20 degrees. So each tangent is
+// given as its goal not rest but u_i (1 - K_i / max K), u being the point's velocity before the forces of the
+// step: then both impulses, (u_i - goal_i) / K_i, have the ratio of u. At rest u = 0 and so is the goal.
+//
+// What a heavy body presses through light ones takes more iterations of the solver, for all that is linked to
+// them: four times the square root of the ratio of two masses.
+class ContactRules final : public JPH::ContactListener {
 public:
-    explicit OneSidedContacts(const CollisionTable& layers) : layers_(layers) {}
+    // `records` is by the body's index.
+    ContactRules(const CollisionTable& layers, const std::vector<BodyRecord*>& records)
+        : layers_(layers), records_(records) {}
 
-    void OnContactAdded(const JPH::Body& a, const JPH::Body& b, const JPH::ContactManifold&,
-                        JPH::ContactSettings& contact) override {
-        apply(a, b, contact);
+    // Of the next step (units: Jolt's, seconds).
+    void begin_step(JPH::Vec3Arg gravity, float seconds) {
+        gravity_ = gravity;
+        seconds_ = seconds;
     }
-    void OnContactPersisted(const JPH::Body& a, const JPH::Body& b, const JPH::ContactManifold&,
+
+    void OnContactAdded(const JPH::Body& a, const JPH::Body& b, const JPH::ContactManifold& manifold,
+                        JPH::ContactSettings& contact) override {
+        apply(a, b, manifold, contact);
+    }
+    void OnContactPersisted(const JPH::Body& a, const JPH::Body& b, const JPH::ContactManifold& manifold,
                             JPH::ContactSettings& contact) override {
-        apply(a, b, contact);
+        apply(a, b, manifold, contact);
     }
 
 private:
-    void apply(const JPH::Body& a, const JPH::Body& b, JPH::ContactSettings& contact) const;
+    void apply(const JPH::Body& a, const JPH::Body& b, const JPH::ContactManifold& manifold,
+               JPH::ContactSettings& contact) const;
+    void push_one_sidedly(const JPH::Body& a, const JPH::Body& b, JPH::ContactSettings& contact) const;
+    void take_pains(const JPH::Body& a, const JPH::Body& b) const;
+    void oppose_sliding(const JPH::Body& a, const JPH::Body& b, const JPH::ContactManifold& manifold,
+                        JPH::ContactSettings& contact) const;
 
     const CollisionTable& layers_;
+    const std::vector<BodyRecord*>& records_;
+    JPH::Vec3 gravity_ = JPH::Vec3::sZero();
+    float seconds_ = 0.0f;
 };
 
 }  // namespace tactus

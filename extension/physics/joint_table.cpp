@@ -25,6 +25,16 @@ bool is_free(const JointRange& range) {
     return range.lower > range.upper;
 }
 
+bool is_locked(const JointRange& range) {
+    return range.lower == 0.0 && range.upper == 0.0;
+}
+
+bool holds_point(const JointDescription& joint) {
+    return joint.kind == JointKind::Pin || joint.kind == JointKind::Hinge ||
+           (joint.kind == JointKind::SixAxes &&
+            std::all_of(joint.linear.begin(), joint.linear.end(), is_locked));
+}
+
 JPH::Vec3 axis(const Pose& frame, const Vec3& in_frame) {
     return units::plain(frame.rotation * in_frame);
 }
@@ -81,7 +91,7 @@ JPH::TwoBodyConstraint* six_axes(const JointDescription& joint, JPH::Body& first
         const auto which = static_cast<Axis>(index);
         if (is_free(range) || range.upper - range.lower >= full)
             settings->MakeFreeAxis(which);
-        else if (range.lower == 0.0 && range.upper == 0.0)
+        else if (is_locked(range))
             settings->MakeFixedAxis(which);
         else
             settings->SetLimitedAxis(
@@ -141,9 +151,11 @@ JointId JointTable::add(const JointDescription& description, JPH::Body& first, J
     vacant->first = first.GetID().GetIndexAndSequenceNumber();
     vacant->second = second.GetID().GetIndexAndSequenceNumber();
     vacant->bodies_collide = description.bodies_collide;
+    vacant->holds_point = holds_point(description);
     join_group(first);
     join_group(second);
     system_.AddConstraint(vacant->constraint);
+    ++count_;
     return {(vacant->generation << index_bits) | static_cast<std::uint32_t>(vacant - joints_.begin())};
 }
 
@@ -160,6 +172,7 @@ void JointTable::remove(Joint& joint) {
     system_.GetBodyInterfaceNoLock().ActivateConstraint(joint.constraint);
     system_.RemoveConstraint(joint.constraint);
     joint.constraint = nullptr;
+    --count_;
     joint.generation = (joint.generation + 1) & (index_mask >> 1);
 }
 
@@ -181,9 +194,15 @@ void JointTable::shape_changed(const JPH::Body& body, JPH::Vec3Arg way) {
             joint.constraint->NotifyShapeChanged(body.GetID(), way);
 }
 
-std::size_t JointTable::count() const {
-    return static_cast<std::size_t>(std::count_if(
-        joints_.begin(), joints_.end(), [](const Joint& joint) { return joint.constraint != nullptr; }));
+void JointTable::begin_step(JointSwing& swing) const {
+    swing.clear();
+    if (count_ == 0)
+        return;
+    for (const Joint& joint : joints_)
+        if (joint.constraint != nullptr && joint.holds_point)
+            swing.begin_step(*joint.constraint->GetBody1(), *joint.constraint->GetBody2(),
+                             joint.constraint->GetConstraintToBody1Matrix().GetTranslation(),
+                             joint.constraint->GetConstraintToBody2Matrix().GetTranslation());
 }
 
 void JointTable::join_group(JPH::Body& body) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "physics/joint.hpp"
+#include "physics/joint_swing.hpp"
 #include "physics/jolt.hpp"
 
 #include <Jolt/Physics/Body/Body.h>
@@ -30,7 +31,10 @@ public:
     // The centre of mass of a body moved within it.
     void shape_changed(const JPH::Body& body, JPH::Vec3Arg way);
 
-    std::size_t count() const;
+    // Of all joints that hold a point, before a step.
+    void begin_step(JointSwing& swing) const;
+
+    std::size_t count() const { return count_; }
 
     // Bodies of a joint have the group of their index; those that may not collide are looked up here.
     bool CanCollide(const JPH::CollisionGroup& a, const JPH::CollisionGroup& b) const override;
@@ -41,6 +45,7 @@ private:
         JPH::CollisionGroup::GroupID first = 0;
         JPH::CollisionGroup::GroupID second = 0;
         bool bodies_collide = true;
+        bool holds_point = false;  // of both bodies, the same one
         std::uint32_t generation = 0;
 
         bool holds(const JPH::Body& body) const {
@@ -54,6 +59,7 @@ private:
 
     JPH::PhysicsSystem& system_;
     std::vector<Joint> joints_;
+    std::size_t count_ = 0;
 };
 
 }  // namespace tactus

@@ -84,7 +84,6 @@ BodyId PhysicsWorld::add(PreparedBody& body) {
     impl_->records[id.GetIndex()] = body.record_.release();
     ++impl_->body_count;
     ++impl_->structure;
-    impl_->listen_if_needed();
     added.SetUserData(reinterpret_cast<JPH::uint64>(&record));
     impl_->bodies().SetObjectLayer(
         id, object_layer(pair, added.CanBeKinematicOrDynamic() ? Tree::Awake : Tree::Still));
@@ -264,8 +263,8 @@ void PhysicsWorld::set_damping(BodyId id, double linear, double angular) {
     JPH::Body* body = impl_->find(id);
     if (body == nullptr || !body->CanBeKinematicOrDynamic())
         return;
-    body->GetMotionPropertiesUnchecked()->SetLinearDamping(static_cast<float>(std::max(0.0, linear)));
-    body->GetMotionPropertiesUnchecked()->SetAngularDamping(static_cast<float>(std::max(0.0, angular)));
+    impl_->record(*body).linear_damping = std::max(0.0, linear);
+    impl_->record(*body).angular_damping = std::max(0.0, angular);
 }
 
 void PhysicsWorld::set_gravity_scale(BodyId id, double scale) {
@@ -288,7 +287,6 @@ void PhysicsWorld::set_collision(BodyId id, const CollisionLayers& collision) {
     const std::size_t pair = impl_->layers.take(collision);
     record.collision = collision;
     record.layer_pair = pair;
-    impl_->listen_if_needed();
     impl_->bodies().SetObjectLayer(body->GetID(), object_layer(pair, tree_of(body->GetObjectLayer())));
     impl_->bodies().InvalidateContactCache(body->GetID());
 }
@@ -390,11 +388,11 @@ std::uint32_t PhysicsWorld::step(double seconds) {
     const std::uint64_t overflows = impl_->memory.overflows();
     const LoopMemoryScope scope(impl_->memory);
     impl_->add_pushes();
-    std::uint32_t status = impl_->update(seconds);
+    std::uint32_t status = impl_->update(seconds, impl_->settings.velocity_iterations);
     impl_->remove_pushes();
-    impl_->far.plan();
-    while (impl_->far.begin_turn()) {
-        status |= impl_->update(seconds * FarIslands::turns);
+    impl_->far.plan(seconds);
+    while (const SlowRate* rate = impl_->far.begin_turn()) {
+        status |= impl_->update(seconds * rate->steps, rate->iterations);
         impl_->far.end_turn();
     }
     impl_->far.finish();

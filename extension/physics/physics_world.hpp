@@ -42,8 +42,8 @@ struct PhysicsSettings {
     std::uint32_t max_joints = 256;        // 1..32768
     int position_iterations = 2;           // >= 1
     std::uint32_t remembered_wakings = 0;  // see save(); 0 where nobody goes back in time
-    // When more bodies than this are awake, those farthest from every hand take one step of sixteen times the
-    // length in every sixteenth (far_islands.hpp). 0: all take every step; needed for save().
+    // When more bodies than this are awake, those farthest from every hand take longer steps where these
+    // change nothing (far_islands.hpp). 0: all take every step; needed for save().
     std::uint32_t full_rate_bodies = 0;
 };
 

@@ -5,7 +5,9 @@
 #include <Jolt/Physics/Body/BodyManager.h>
 #include <Jolt/Physics/Collision/Shape/OffsetCenterOfMassShape.h>
 
+#include <array>
 #include <cmath>
+#include <cstdio>
 
 #include "physics/body_record.hpp"
 #include "physics/collision_layers.hpp"
@@ -38,13 +40,22 @@ bool needs_motion(const BodyDescription& description) {
     return description.motion != Motion::Static || description.may_move;
 }
 
+std::string in_short(double value) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.6g", value);
+    return text.data();
+}
+
 std::string wrong_in(const BodyDescription& d) {
     if (d.shapes.empty())
         return "the body has no shape; add a CollisionShape3D with a shape";
     if (!limits::is_pose(d.pose))
         return "the body's transform is not finite, holds a scale or is more than 10,000 km away; reset it";
-    if (needs_motion(d) && !(d.mass >= limits::lightest && d.mass <= limits::heaviest))
-        return "the mass is " + std::to_string(d.mass) + " kg; make it between 0.000001 and 10^12 kg";
+    // Godot's numbers have single precision: its 0.000001 is a little less.
+    constexpr double rounding = 1e-7;
+    if (needs_motion(d) &&
+        !(d.mass >= limits::lightest * (1.0 - rounding) && d.mass <= limits::heaviest * (1.0 + rounding)))
+        return "the mass is " + in_short(d.mass) + " kg; make it between 0.000001 and 10^12 kg";
     if (d.center_of_mass && !(glm::length(*d.center_of_mass) <= limits::longest_arm))
         return "the centre of mass is not a point within 100 km of the body";
     if (d.inertia && !(is_inertia(d.inertia->x) && is_inertia(d.inertia->y) && is_inertia(d.inertia->z)))
@@ -162,6 +173,8 @@ PreparedBody prepare(const BodyDescription& description) {
     auto record = std::make_unique<BodyRecord>();
     record->collision = description.collision;
     record->may_be_dynamic = may_turn_dynamic(description);
+    record->linear_damping = description.linear_damping;
+    record->angular_damping = description.angular_damping;
     JPH::BodyCreationSettings settings;
     if (needs_motion(description)) {
         const SolidProperties solid = solid_of(description, *converted.shape);
@@ -188,8 +201,7 @@ PreparedBody prepare(const BodyDescription& description) {
     settings.mAllowSleeping = description.can_sleep;
     settings.mFriction = stored_friction(description.material);
     settings.mRestitution = stored_restitution(description.material);
-    settings.mLinearDamping = static_cast<float>(description.linear_damping);
-    settings.mAngularDamping = static_cast<float>(description.angular_damping);
+    settings.mLinearDamping = settings.mAngularDamping = 0.0f;  // implicit_damping.hpp
     settings.mMaxLinearVelocity = units::length(limits::fastest);
     settings.mMaxAngularVelocity = static_cast<float>(limits::fastest_spin);
     settings.mGravityFactor =
@@ -205,6 +217,8 @@ PreparedBody duplicate(const PreparedBody& body) {
     record->collision = original.collision;
     record->may_be_dynamic = original.may_be_dynamic;
     record->mass = original.mass;
+    record->linear_damping = original.linear_damping;
+    record->angular_damping = original.angular_damping;
     record->mass_properties = original.mass_properties;
     JPH::BodyCreationSettings settings = original.body->GetBodyCreationSettings();
     // Not the inverse of the inverse, which is off by a bit.

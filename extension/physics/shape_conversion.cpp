@@ -213,7 +213,8 @@ ShapeConversion of(const HeightFieldShape& field, bool may_turn_dynamic) {
     if (!is_length(std::abs(field.scale.x)) || !is_length(field.scale.z) || !is_length(field.scale.y))
         return failure("the height field's scale is not a length");
     for (std::size_t i = 0; i < samples; ++i)
-        if (!(std::abs(field.scale.y * (*field.heights)[i]) <= largest_length))
+        if (!is_hole((*field.heights)[i]) &&
+            !(std::abs(field.scale.y * (*field.heights)[i]) <= largest_length))
             return failure("height " + std::to_string(i) + " is not a finite number");
 
     // Padding a long strip to a square would cost more than its triangles do.
@@ -228,9 +229,11 @@ ShapeConversion of(const HeightFieldShape& field, bool may_turn_dynamic) {
     // same one.
     std::vector<float> padded(static_cast<std::size_t>(side) * side,
                               JPH::HeightFieldShapeConstants::cNoCollisionValue);
+    static_assert(JPH::HeightFieldShapeConstants::cNoCollisionValue == hole_height);
     for (std::uint32_t row = 0; row < field.rows; ++row)
         std::copy_n(field.heights->data() + static_cast<std::size_t>(field.rows - 1 - row) * field.columns,
                     field.columns, padded.data() + static_cast<std::size_t>(row) * side);
+    std::ranges::replace_if(padded, is_hole, hole_height);
     const Vec3 scale(std::abs(field.scale.x), field.scale.y, field.scale.z);
     const Vec3 corner{-0.5 * scale.x * (field.columns - 1), 0.0, -0.5 * scale.z * (field.rows - 1)};
     JPH::HeightFieldShapeSettings settings(padded.data(), units::vector(corner), units::vector(scale), side);

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 
+#include "physics/contact_points.hpp"
 #include "physics/jolt_units.hpp"
 #include "physics/limits.hpp"
 #include "physics/world_settings.hpp"
+
+#include <Jolt/Physics/Constraints/ContactConstraintManager.h>
 
 namespace tactus {
 
@@ -21,7 +24,8 @@ std::size_t loop_memory_size(std::uint32_t max_bodies) {
 // Scratch of a single step: the contact constraints, the bodies' and contacts' links to islands, the pairs
 // found.
 JPH::uint step_memory_size(const PhysicsSettings& settings) {
-    constexpr std::size_t per_contact = 1024;
+    constexpr std::size_t per_contact =
+        points_of_a_patch * (JPH::ContactConstraintManager::cMaxConstraintSize + sizeof(JPH::uint32) + 64);
     constexpr std::size_t per_body = 64;
     return static_cast<JPH::uint>(4 * mebibyte + per_contact * settings.max_contacts +
                                   per_body * settings.max_bodies);
@@ -59,25 +63,36 @@ PhysicsWorld::Impl::Impl(const PhysicsSettings& wanted)
     : settings(within_range(wanted)),
       memory(loop_memory_size(settings.max_bodies)),
       layers(settings.max_bodies),
-      one_sided(layers),
+      rules(layers, records),
       step_memory(step_memory_size(settings)),
       jobs(jobs_per_sub_step * static_cast<std::size_t>(settings.sub_steps)),
       records(settings.max_bodies),
       far(system, records, settings.full_rate_bodies),
       places(system, settings.max_bodies),
+      spin(settings.max_bodies),
+      damping(settings.max_bodies),
       trees(system, records, far),
       journal(system, settings.remembered_wakings),
       activity(trees, journal, far, places, moved),
       joints(system, settings.max_joints),
+      swing(settings.max_joints),
       pushes(max_pushes) {
     constexpr JPH::uint one_mutex = 1;
-    system.Init(settings.max_bodies, one_mutex, settings.max_touching_pairs, settings.max_contacts,
-                layer_interface, broad_phase_filter, layers);
+    system.Init(settings.max_bodies, one_mutex, settings.max_touching_pairs,
+                points_of_a_patch * settings.max_contacts, layer_interface, broad_phase_filter, layers);
     system.SetPhysicsSettings(jolt_settings(settings));
+    system.SetSimCollideBodyVsBody(
+        [this](const JPH::Body& body1, const JPH::Body& body2, JPH::Mat44Arg transform1,
+               JPH::Mat44Arg transform2, JPH::CollideShapeSettings& collide,
+               JPH::CollideShapeCollector& collector, const JPH::ShapeFilter& filter) {
+            collide_by_points(system.GetPhysicsSettings(), body1, body2, transform1, transform2, collide,
+                              collector, filter);
+        });
     system.SetCombineFriction(combined_friction);
     system.SetCombineRestitution(combined_restitution);
     system.SetGravity(units::vector(settings.gravity));
     system.SetBodyActivationListener(&activity);
+    system.SetContactListener(&rules);
     moved.reserve(2 * settings.max_bodies);
 }
 
@@ -106,24 +121,31 @@ void PhysicsWorld::Impl::wake_around(const JPH::Body& body) {
     bodies().ActivateBodiesInAABox(box, MovingOnly(), JPH::ObjectLayerFilter());
 }
 
-void PhysicsWorld::Impl::listen_if_needed() {
-    system.SetContactListener(layers.any_one_sided() ? &one_sided : nullptr);
-}
-
-std::uint32_t PhysicsWorld::Impl::update(double seconds) {
+std::uint32_t PhysicsWorld::Impl::update(double seconds, int iterations) {
     const std::span<const JPH::BodyID> active{system.GetActiveBodiesUnsafe(JPH::EBodyType::RigidBody),
                                               system.GetNumActiveBodies(JPH::EBodyType::RigidBody)};
     if (active.empty())
         return step_ok;
     const std::size_t first = moved.size();
     for (const JPH::BodyID id : active) {
+        const BodyRecord& record = *records[id.GetIndex()];
         moved.push_back({id.GetIndexAndSequenceNumber()});
-        places.keep(*records[id.GetIndex()]->in_world);
+        places.keep(*record.in_world);
+        // Contacts of this step may ask for more.
+        record.in_world->GetMotionProperties()->SetNumVelocityStepsOverride(
+            static_cast<JPH::uint>(iterations));
     }
+    rules.begin_step(system.GetGravity(), static_cast<float>(seconds / settings.sub_steps));
+    spin.begin_step(active, records, static_cast<float>(seconds));
+    damping.begin_step(active, records, static_cast<float>(seconds));
+    joints.begin_step(swing);
     activity.in_step(true);
     const JPH::EPhysicsUpdateError error =
         system.Update(static_cast<float>(seconds), settings.sub_steps, &step_memory, &jobs);
     activity.in_step(false);
+    damping.end_step();
+    spin.end_step();
+    swing.end_step();
     const auto has = [error](JPH::EPhysicsUpdateError bit) {
         return (error & bit) != JPH::EPhysicsUpdateError::None;
     };

@@ -10,6 +10,8 @@
 #include "physics/collision_layers.hpp"
 #include "physics/contact_rules.hpp"
 #include "physics/far_islands.hpp"
+#include "physics/free_spin.hpp"
+#include "physics/implicit_damping.hpp"
 #include "physics/joint_table.hpp"
 #include "physics/jolt.hpp"
 #include "physics/loop_jobs.hpp"
@@ -41,10 +43,8 @@ struct PhysicsWorld::Impl {
     // Whatever rests on, leans on or is about to touch a body that changes.
     void wake_around(const JPH::Body& body);
 
-    void listen_if_needed();
-
-    // One step of Jolt, and what it moves added to `moved`. StepStatus bits.
-    std::uint32_t update(double seconds);
+    // One step of Jolt with at least so many iterations, and what it moves added to `moved`. StepStatus bits.
+    std::uint32_t update(double seconds, int iterations);
 
     // Of those in `moved` from `first` on. True where there was one.
     bool put_back_the_lost(std::size_t first);
@@ -60,18 +60,21 @@ struct PhysicsWorld::Impl {
     LayerInterface layer_interface;
     BroadPhaseFilter broad_phase_filter;
     CollisionTable layers;
-    OneSidedContacts one_sided;
+    ContactRules rules;
     JPH::TempAllocatorImplWithMallocFallback step_memory;
     LoopJobs jobs;
     JPH::PhysicsSystem system;
     std::vector<BodyRecord*> records;  // by the body's index; owned
     FarIslands far;
     SoundPlaces places;
+    FreeSpin spin;
+    ImplicitDamping damping;
     TreeKeeper trees;
     WakeJournal journal;
     std::vector<BodyId> moved;  // by the last step
     ActivityListener activity;
     JointTable joints;
+    JointSwing swing;
     std::vector<SpringPush> pushes;  // the first push_count are of the next step
     std::size_t push_count = 0;
     std::size_t body_count = 0;

@@ -62,7 +62,8 @@ void TickLoop::keep_awake() {
         report_.text += " It may sleep, as asked for.";
         return;
     }
-    const std::string refused = awake_.start(report_.cpu);
+    const std::string refused = awake_.start(
+        report_.cpu, {.period = settings_.period, .phase = settings_.phase, .lead = settings_.awake_lead});
     report_.kept_awake = refused.empty();
     report_.text += refused.empty() ? " It is kept awake." : " It may sleep: " + refused + ".";
 }

@@ -40,7 +40,8 @@ struct TickLoopSettings {
 
     RealtimeRequest realtime;
     SleepSettings sleep;
-    const char* thread_name = "tactus-haptic";  // at most 15 characters; outlives the loop
+    Nanoseconds awake_lead = AwakeTimes{}.lead;  // where the processor is kept awake, see there
+    const char* thread_name = "tactus-haptic";   // at most 15 characters; outlives the loop
 };
 
 class TickLoop {

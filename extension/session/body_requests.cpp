@@ -73,9 +73,10 @@ AddResult Session::add_body(ReadyBody&& body, const FormerBody& former) {
     impl_->make_second(body);
     const SessionHandle handle = impl_->take_from(impl_->bodies);
     if (handle == no_handle) {
-        return {no_handle, "the world already holds its limit of " +
-                               std::to_string(impl_->settings.max_bodies) +
-                               " bodies: raise the limit or remove some"};
+        return {no_handle,
+                "the world already holds its limit of " + std::to_string(impl_->settings.max_bodies) +
+                    " bodies: raise the limit or remove some",
+                true};
     }
     if (impl_->recorder) {
         impl_->note(call::AddBody{handle, call::Form::of(body), former});
@@ -111,10 +112,20 @@ void Session::narrow_touch(SessionHandle body, std::shared_ptr<const TouchShape>
     }
 }
 
-void Session::teleport_body(SessionHandle body, const Pose& pose) {
-    if (limits::is_pose(pose)) {
-        impl_->send(command::TeleportBody{body, pose});
+bool Session::teleport_body(SessionHandle body, const Pose& pose, std::uint32_t axes) {
+    const bool is_one = limits::is_pose(pose);
+    if (is_one) {
+        impl_->send(command::TeleportBody{body, pose, axes});
     }
+    return is_one;
+}
+
+bool Session::shift_body(SessionHandle body, const Vec3& by, const Quat& turn) {
+    const bool is_one = limits::is_pose({by, turn});
+    if (is_one) {
+        impl_->send(command::ShiftBody{body, by, turn});
+    }
+    return is_one;
 }
 
 void Session::move_body(SessionHandle body, const Pose& pose, double seconds) {
@@ -123,8 +134,9 @@ void Session::move_body(SessionHandle body, const Pose& pose, double seconds) {
     }
 }
 
-void Session::set_body_velocity(SessionHandle body, const Vec3& linear, const Vec3& angular) {
-    impl_->send(command::SetBodyVelocity{body, linear, angular});
+void Session::set_body_velocity(SessionHandle body, const Vec3& linear, const Vec3& angular,
+                                std::uint32_t axes) {
+    impl_->send(command::SetBodyVelocity{body, linear, angular, axes});
 }
 
 void Session::set_touch_material(SessionHandle body, const TouchMaterial& material,

@@ -1,5 +1,6 @@
 // What both sides of a teleoperation do with their end of the link alike: settings that the owner changes
-// while the loop runs, another start of the far side, leaving, and what is told about it.
+// while the loop runs, another start of the far side, leaving, what both must agree on, and what is told
+// about it.
 #pragma once
 
 #include <memory>
@@ -11,8 +12,7 @@ namespace tactus {
 class Channel {
 public:
     Channel(const TeleopSettings& settings, Link& link, std::shared_ptr<TeleopPort> port,
-            const EndpointSettings& endpoint)
-        : settings_(settings), before_(settings), link_(link, endpoint), port_(std::move(port)) {}
+            const EndpointSettings& endpoint);
 
     // First thing in a tick. True where the owner has given other settings; before() is what they were.
     bool begin_tick(Nanoseconds now);
@@ -30,6 +30,16 @@ public:
     void send(const Message& message) { link_.send(message); }
     bool try_send(const Message& message) { return link_.send(message); }
 
+    // --- what both sides must agree on
+
+    // What this side's settings say of it; bodies and hands are the side's to add.
+    Terms terms_of_settings() const;
+    // Once a tick.
+    void set_own(const Terms& terms);
+    // While the far side is heard: what differs, or that it has not said yet. Else nothing does.
+    const Disagreement& disagreement() const { return disagreement_; }
+    bool works_together(std::size_t hand) const { return disagreement_.works(hand); }
+
     // Last thing in a tick: what is due goes out, and the owner is told.
     void end_tick(TeleopStatistics& statistics);
 
@@ -38,11 +48,26 @@ public:
     TeleopPort& port() { return *port_; }
 
 private:
+    void take(const Terms& terms, std::uint64_t packet);
+    void compare_terms();
+    bool waits_for_terms() const;
+    Disagreement found() const;
+
     TeleopSettings settings_, before_;
     Endpoint link_;
     std::shared_ptr<TeleopPort> port_;
     std::uint64_t peer_epoch_ = 0;
     std::uint64_t starts_ = 0;  // of the far side, seen so far
+    Side side_;
+    Terms own_, peer_;
+    bool own_changed_ = true;
+    std::uint64_t hellos_ = 0;             // since the far side's last start
+    std::uint64_t peer_terms_epoch_ = 0;   // whose peer_ is; 0: not known
+    std::uint64_t peer_terms_packet_ = 0;  // that brought it
+    Disagreement disagreement_;
+    Nanoseconds now_ = 0;        // of the tick
+    Nanoseconds agreed_at_ = 0;  // last
+    bool has_agreed_ = false;    // with this start of the far side
 };
 
 }  // namespace tactus

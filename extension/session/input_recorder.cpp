@@ -130,8 +130,8 @@ void InputRecorder::close() {
     }
 }
 
-void InputRecorder::begin_tick(Nanoseconds now, std::uint32_t commands) {
-    put(heard::Tick{now, commands});
+void InputRecorder::begin_tick(const heard::Tick& tick) {
+    put(tick);
     for (const std::unique_ptr<LinkTap>& tap : taps_) {
         tap->begin_tick();
     }

@@ -40,7 +40,7 @@ public:
 
     // --- loop
 
-    void begin_tick(Nanoseconds now, std::uint32_t commands);
+    void begin_tick(const heard::Tick& tick);
     void note_reading(SessionHandle device, const DeviceSample& sample,
                       const DeviceCapabilities& capabilities);
     void end_tick(std::uint64_t outcome);

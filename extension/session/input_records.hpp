@@ -106,16 +106,15 @@ struct RowsWritten {
 
 }  // namespace call
 
-using InputCall =
-    std::variant<call::AddBody, command::RemoveBody, call::DeformBody, command::TeleportBody,
-                 command::MoveBody, command::SetBodyVelocity, command::SetTouchMaterial,
-                 command::SetBodySurface, command::SetBodyLayers, command::SetBodyMotion,
-                 command::SetBodyGravityScale, command::SetBodyDamping, command::SetBodyPush,
-                 command::SeeBody, command::PushBody, command::AddJoint, command::RemoveJoint,
-                 command::SetGravity, call::AddDevice, command::SetWorkspace, command::RemoveDevice,
-                 call::AddProxy, command::SetProxy, command::SetField, command::RemoveProxy, call::AddTool,
-                 command::SetTool, command::RemoveTool, call::Record, call::EndRecording, call::Attach,
-                 call::Announce, call::Epoch, call::WriteRows, call::RowsWritten, call::NarrowTouch>;
+using InputCall = std::variant<
+    call::AddBody, command::RemoveBody, call::DeformBody, command::TeleportBody, command::MoveBody,
+    command::SetBodyVelocity, command::SetTouchMaterial, command::SetBodySurface, command::SetBodyLayers,
+    command::SetBodyMotion, command::SetBodyGravityScale, command::SetBodyDamping, command::SetBodyPush,
+    command::SeeBody, command::PushBody, command::AddJoint, command::RemoveJoint, command::SetGravity,
+    call::AddDevice, command::SetWorkspace, command::RemoveDevice, call::AddProxy, command::SetProxy,
+    command::SetField, command::RemoveProxy, call::AddTool, command::SetTool, command::RemoveTool,
+    call::Record, call::EndRecording, call::Attach, call::Announce, call::Epoch, call::WriteRows,
+    call::RowsWritten, call::NarrowTouch, command::ShiftBody>;
 
 // By the loop. `link`: the number of the end.
 namespace heard {
@@ -124,6 +123,7 @@ namespace heard {
 struct Tick {
     Nanoseconds now = 0;
     std::uint32_t commands = 0;
+    Nanoseconds late = 0;  // it began so long after `now`
 };
 // Between ticks.
 struct Settle {
@@ -330,11 +330,13 @@ inline constexpr int members<call::Form> = 6;
 template <>
 inline constexpr int members<command::RemoveBody> = 1;
 template <>
-inline constexpr int members<command::TeleportBody> = 2;
+inline constexpr int members<command::TeleportBody> = 3;
+template <>
+inline constexpr int members<command::ShiftBody> = 3;
 template <>
 inline constexpr int members<command::MoveBody> = 3;
 template <>
-inline constexpr int members<command::SetBodyVelocity> = 3;
+inline constexpr int members<command::SetBodyVelocity> = 4;
 template <>
 inline constexpr int members<command::SetTouchMaterial> = 3;
 template <>
@@ -400,7 +402,7 @@ inline constexpr int members<call::WriteRows> = 1;
 template <>
 inline constexpr int members<call::RowsWritten> = 2;
 template <>
-inline constexpr int members<heard::Tick> = 2;
+inline constexpr int members<heard::Tick> = 3;
 template <>
 inline constexpr int members<heard::Settle> = 1;
 template <>

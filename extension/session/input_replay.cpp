@@ -504,7 +504,7 @@ void InputReplay::drain_rows() {
 void InputReplay::hear(const heard::Done& h) {
     session_->collect();
     session_->take_exactly(tick_.commands);
-    session_->tick(tick_.now);
+    session_->tick(tick_.now, nullptr, tick_.late);
     session_->collect();
     for (const std::unique_ptr<End>& end : ends_) {
         end->link.end_tick();

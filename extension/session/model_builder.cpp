@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "core/math/body_motion.hpp"
 
@@ -44,6 +45,7 @@ void ModelBuilder::set_run(DiscoveryReceiver::Run run) {
 
 bool ModelBuilder::update(Nanoseconds now, const LinkStatistics& link) {
     delay_ = 1e-9 * link.clock.mean_delay;
+    object_count_ = link.peer_hello.object_count;
     if (link.peer_epoch != 0) {
         follow_gravity(now, link.peer_hello.gravity);
     }
@@ -62,8 +64,10 @@ bool ModelBuilder::update(Nanoseconds now, const LinkStatistics& link) {
         changed = true;
     }
     if (changed) {
+        news_at_ = now;
         join();
     }
+    let_fall(now);
     send_on();
     return changed;
 }
@@ -124,6 +128,23 @@ bool ModelBuilder::all_described(Nanoseconds now, const LinkStatistics& link) co
            static_cast<std::size_t>(bodies) + joints_.count() >= link.peer_hello.object_count;
 }
 
+bool ModelBuilder::all_known() const {
+    const auto bodies = std::ranges::count(objects_, false, &ModelObject::outdated);
+    return static_cast<std::size_t>(bodies) + joints_.count() >= object_count_;
+}
+
+// What a body rests on may be described after it: nothing falls before all is.
+void ModelBuilder::let_fall(Nanoseconds now) {
+    if (!all_known() && now - news_at_ < floats_at_most) {
+        return;
+    }
+    for (ModelObject& object : objects_) {
+        if (std::exchange(object.floats, false) && object.body != no_handle) {
+            session_.set_body_gravity_scale(object.body, object.gravity_scale);
+        }
+    }
+}
+
 void ModelBuilder::remove_outdated() {
     for (const ModelObject& object : objects_) {
         if (object.outdated) {
@@ -144,6 +165,7 @@ void ModelBuilder::prepare(ObjectDescription& description) {
     preparing->object = description.object;
     preparing->name = description.name;
     preparing->addition = addition_of(description, frame_);
+    preparing->gravity_scale = description.body.gravity_scale;
     preparing_.push_back(preparing);
     const auto job = [preparing, session = &session_] {
         preparing->ready = session->prepare_body(preparing->addition);
@@ -165,7 +187,8 @@ bool ModelBuilder::add_prepared() {
 }
 
 void ModelBuilder::add(Preparing& prepared) {
-    ModelObject made{prepared.object, prepared.name, no_handle, {}, false, prepared.ready.motion};
+    ModelObject made{prepared.object,       prepared.name,         no_handle, {}, false,
+                     prepared.ready.motion, prepared.gravity_scale};
     const auto before = find_before(prepared.object, prepared.name);
     FormerBody former;
     if (before != objects_.end() && is_same(*before, made)) {
@@ -181,6 +204,11 @@ void ModelBuilder::add(Preparing& prepared) {
     } else {
         take_out(*before);
         *before = std::move(made);
+    }
+    if (ModelObject& added_one = *find(prepared.object);
+        added_one.body != no_handle && added_one.motion == Motion::Dynamic && !all_known()) {
+        added_one.floats = true;
+        session_.set_body_gravity_scale(added_one.body, 0.0);
     }
     bind(prepared.object, find(prepared.object)->body);
 }

@@ -28,6 +28,8 @@ struct ModelObject {
     std::string problem;             // why
     bool outdated = false;           // of an earlier start of the far side, which has not described it yet
     Motion motion = Motion::Static;  // as it was described
+    double gravity_scale = 1.0;      // likewise
+    bool floats = false;             // until all is described that it may rest on
 };
 
 class ModelBuilder {
@@ -67,6 +69,7 @@ private:
 
     static constexpr Nanoseconds settling = 200'000'000;
     static constexpr Nanoseconds patience = 2'000'000'000;
+    static constexpr Nanoseconds floats_at_most = 5'000'000'000;  // after the last description
 
     // A body that is being prepared. Shared with who does it.
     struct Preparing {
@@ -74,11 +77,14 @@ private:
         std::string name;
         BodyAddition addition;
         ReadyBody ready;
+        double gravity_scale = 1.0;
         std::atomic<bool> done{false};
     };
 
     void outdate(Nanoseconds now);
     bool all_described(Nanoseconds now, const LinkStatistics& link) const;
+    bool all_known() const;
+    void let_fall(Nanoseconds now);
     void remove_outdated();
     void follow_gravity(Nanoseconds now, const Vec3& wanted);
     void take(DiscoveryEvent& event, Nanoseconds now);
@@ -107,7 +113,9 @@ private:
     Vec3 gravity_{0.0};                  // as set last (unit: meters per second squared)
     Nanoseconds gravity_at_ = 0;
     bool gravity_known_ = false;
-    double delay_ = 0.0;  // there and back (unit: seconds)
+    std::size_t object_count_ = 0;  // that the far side says it has
+    Nanoseconds news_at_ = 0;       // when something was described last
+    double delay_ = 0.0;            // there and back (unit: seconds)
     Pose frame_;
 };
 

@@ -1,5 +1,6 @@
 // What the operator's side tells the far side.
 #include <algorithm>
+#include <glm/geometric.hpp>
 
 #include "core/geometry/surface_query.hpp"
 #include "session/operator_side.hpp"
@@ -15,6 +16,56 @@ void OperatorSide::acknowledge() {
         }
         channel_.send(acknowledgement);
     }
+}
+
+// With a deadband: whether the far side guesses what `sample` says. That the hand begins or ceases to touch
+// its model it does not: no guess there touches what the hand does not.
+bool OperatorSide::is_guessed(const SentHand& sent, const OperatorSample& sample) const {
+    const DeadbandSettings& deadband = settings().deadband;
+    const OperatorSample& last = sent.last;
+    const double seconds = static_cast<double>(sample_ - last.sequence) * seconds_;
+    const Vec3 guessed = guessed_position(last.position, last.velocity, seconds);
+    const Quat turned = turn_by(last.spin, guessed_time(seconds)) * last.rotation;
+    return deadband.enabled && sent.since != no_sample &&
+           !position_needs_sending(deadband, guessed, sample.position, sample.velocity) &&
+           (settings().traditional || (sample.force == Vec3(0.0)) == (last.force == Vec3(0.0))) &&
+           (!sample.has_turn || angle_between(turned, sample.rotation) <= deadband.angle) &&
+           sample.buttons == last.buttons && sample.connected == last.connected;
+}
+
+bool OperatorSide::is_due(const SentHand& sent, Nanoseconds now) const {
+    const double spin = sent.last.has_turn ? glm::length(sent.last.spin) : 0.0;
+    return hand_is_due(settings().deadband, {stands(glm::length(sent.last.velocity), spin),
+                                             sent.acknowledged >= sent.since, now - sent.at});
+}
+
+void OperatorSide::send(SentHand& sent, const OperatorSample& sample, bool says_nothing_new,
+                        Nanoseconds now) {
+    sent.since = says_nothing_new ? sent.since : sample.sequence;
+    sent.last = sample;
+    sent.at = now;
+    samples_.add(sample);
+}
+
+// A hand that was there and is not: said until the far side has heard it, and now and then after that.
+void OperatorSide::send_absence(SentHand& sent, Nanoseconds now) {
+    if (sent.since == no_sample) {
+        return;
+    }
+    const bool is_news = sent.last.connected;
+    DeadbandSettings settings_of_absence = settings().deadband;
+    settings_of_absence.enabled = true;
+    if (!is_news &&
+        !hand_is_due(settings_of_absence, {true, sent.acknowledged >= sent.since, now - sent.at})) {
+        return;
+    }
+    OperatorSample gone = sent.last;
+    gone.sequence = sample_;
+    gone.time = channel_.link().local_time(now);
+    gone.connected = false;
+    gone.buttons = 0;
+    gone.velocity = gone.force = gone.spin = Vec3(0.0);
+    send(sent, gone, !is_news, now);
 }
 
 // What the far side needs to do the same: the true hand, and what it presses bodies with.
@@ -35,23 +86,17 @@ void OperatorSide::send_sample(SessionLoop& loop, std::size_t index, Nanoseconds
     // Traditional: only a passive scheme asks for it, and for what the hand was given.
     const Vec3 given = settings().passivity != Passivity::none ? pointer.force : Vec3(0.0);
     sample.force = direction_to_local(frame, settings().traditional ? given : slot.force);
-    if (deadband.enabled && pointer.has_sent && now - pointer.sent_at < deadband.longest_silence) {
-        const OperatorSample& last = pointer.sent;
-        const Vec3 guessed = guessed_position(last.position, last.velocity,
-                                              static_cast<double>(sample_ - last.sequence) * seconds_);
-        if (!position_needs_sending(deadband, guessed, sample.position, sample.velocity) &&
-            !(uses_force(settings().control) && force_needs_sending(deadband, last.force, sample.force)) &&
-            sample.buttons == last.buttons && sample.connected == last.connected) {
-            return;
-        }
+    SentHand& sent = pointer.sent;
+    const bool same_force =
+        !uses_force(settings().control) || !force_needs_sending(deadband, sent.last.force, sample.force);
+    const bool says_nothing_new = same_force && is_guessed(sent, sample);
+    if (says_nothing_new && !is_due(sent, now)) {
+        return;
     }
     if (!settings().traditional && settings().control == ControlScheme::position_force_relative) {
         find_nearest(loop, slot, sample);
     }
-    pointer.sent = sample;
-    pointer.has_sent = true;
-    pointer.sent_at = now;
-    samples_.add(sample);
+    send(sent, sample, says_nothing_new, now);
 }
 
 void OperatorSide::find_nearest(SessionLoop& loop, const SessionLoop::ProxySlot& slot,

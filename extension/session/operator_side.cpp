@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "session/hand_terms.hpp"
+
 namespace tactus {
 
 OperatorSide::OperatorSide(const SessionSettings& session, const OperatorRoom& room,
@@ -43,7 +45,10 @@ void OperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
     if (channel_.begin_tick(now)) {
         take_settings(loop);
     }
+    limits_ = settings().limits;
+    limits_.slew = std::min(limits_.slew, max_unexplained_step / seconds_);
     ++sample_;
+    hold_back_hands(loop);
     round_hands(loop);
     hold_fixed_tools(loop);
     round_tools(loop);
@@ -64,12 +69,28 @@ void OperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
     statistics_.spent += std::exchange(statistics_.cost, {});
     targets_.clear();
     corrected_ = false;
-    if (settings().traditional) {
+    if (settings().traditional || channel_.disagreement().whole) {
+        resimulator_.stop();
         follow_far_side(loop);
     } else if (settings().correction != Correction::none) {
         find_targets(loop, now);
         if (!targets_.empty()) {
             correct(loop, now);
+        }
+    }
+}
+
+// A hand that cannot work together with the far side's touches nothing.
+void OperatorSide::hold_back_hands(SessionLoop& loop) {
+    for (std::size_t i = 0; i < max_proxies; ++i) {
+        SessionLoop::ProxySlot& slot = loop.proxy(i);
+        const bool idle = !channel_.works_together(i);
+        changed_ = changed_ || (slot.proxy && slot.idle != idle);
+        slot.idle = idle;
+    }
+    for (std::size_t i = 0; i < max_tools; ++i) {
+        if (ToolSlot* const slot = loop.tool(i)) {
+            slot->hand.holds = slot->hand.holds && channel_.works_together(first_tool + i);
         }
     }
 }
@@ -162,6 +183,8 @@ void OperatorSide::receive(SessionLoop& loop, Nanoseconds now) {
             ghosts_.take(*ghosts, packet->header.sequence, settings().frame, now);
         } else if (const auto* const estimates = std::get_if<ObjectEstimates>(message)) {
             take(*estimates, packet->header.sequence);
+        } else if (const auto* const known = std::get_if<SampleAcknowledgements>(message)) {
+            take(*known);
         } else if (const auto* const piece = std::get_if<DiscoveryFragment>(message)) {
             if (!restart_waits_) {
                 discovery.put(*piece);
@@ -194,6 +217,12 @@ void OperatorSide::forget_far_side() {
     traditional_.forget();
     forget_past();
     samples_.restart();
+    for (Pointer& pointer : pointers_) {
+        pointer.sent = {};
+    }
+    for (Tool& tool : tools_) {
+        tool.sent = {};
+    }
     restart_waits_ = true;
 }
 
@@ -404,6 +433,17 @@ void OperatorSide::take(const WrenchSample& wrench) {
     statistics_.round_trip = static_cast<double>(sample_ - wrench.newest_operator_sample) * seconds_;
 }
 
+void OperatorSide::take(const SampleAcknowledgements& acknowledgements) {
+    for (std::size_t i = 0; i < acknowledgements.count; ++i) {
+        const auto [pointer, sequence] = acknowledgements.samples[i];
+        if (pointer >= first_tool + max_tools || sequence > sample_) {
+            continue;
+        }
+        SentHand& sent = pointer < first_tool ? pointers_[pointer].sent : tools_[pointer - first_tool].sent;
+        sent.acknowledged = std::max(sent.acknowledged, sequence);
+    }
+}
+
 // Traditional: bodies are shown where the far side last said.
 void OperatorSide::follow_far_side(SessionLoop& loop) {
     for (const SessionHandle body : truths_.fresh()) {
@@ -578,15 +618,23 @@ void OperatorSide::report(SessionLoop& loop, Nanoseconds now) {
         if (loop.proxy(i).present()) {
             note_given(loop, i);
             send_sample(loop, i, now);
+        } else {
+            send_absence(pointers_[i].sent, now);
         }
     }
     for (std::size_t i = 0; i < max_tools; ++i) {
         if (const ToolSlot* const slot = loop.tool(i)) {
             tools_[i].given = {loop.given_force(*slot), slot->state.torque};
             send_tool(loop, i, *slot, now);
+        } else {
+            send_absence(tools_[i].sent, now);
         }
     }
     samples_.end_tick(channel_.link(), now);
+    Terms terms = channel_.terms_of_settings();
+    terms.bodies = static_cast<std::uint32_t>(loop.max_bodies());
+    note_hands(loop, terms);
+    channel_.set_own(terms);
     acknowledge();
     statistics_.sample = sample_;
     statistics_.doubt = touched_doubt(loop);

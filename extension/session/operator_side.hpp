@@ -53,6 +53,10 @@ TouchedBody touched_body(const SessionLoop& loop, const auto& state) {
                                loop.mass(state.bodies[0])}
                  : TouchedBody{};
 }
+// Whatever happens at the far side, to the model or to the link, changes a hand's force by no more in a tick
+// (unit: newtons). What the hand's own motion changes it by comes on top.
+inline constexpr double max_unexplained_step = 0.5;
+
 // FeltStatus.
 std::uint32_t felt_status(FeltState state);
 
@@ -64,12 +68,20 @@ public:
     void set_hands(SessionLoop& loop, Nanoseconds now) override;
     void set_forces(SessionLoop& loop, Nanoseconds now) override;
     void report(SessionLoop& loop, Nanoseconds now) override;
-    const ForceLimits& limits() const override { return channel_.settings().limits; }
+    const ForceLimits& limits() const override { return limits_; }
     bool simulates() const override { return !settings().traditional; }
     SessionLoop* twin() override { return resimulator_.twin(); }
 
 private:
     using Target = Resimulator::Target;
+
+    // What the far side has been sent of a hand.
+    struct SentHand {
+        OperatorSample last;
+        Nanoseconds at = 0;
+        SampleSequence since = no_sample;         // the first one that says what `last` says; no_sample: none
+        SampleSequence acknowledged = no_sample;  // the newest one that has come there and stands
+    };
 
     struct Pointer {
         FeltPointer felt;
@@ -78,16 +90,15 @@ private:
         Vec3 modelled{0.0};                   // by the model, one tick ago (unit: newtons)
         Vec3 modelled_before{0.0};            // two ticks ago, or the same where a change was in between
         Vec3 hand{0.0};                       // one tick ago (unit: meters)
+        Vec3 velocity{0.0};                   // of the hand, one tick ago (unit: meters per second)
         Vec3 force{0.0};                      // given to the hand, one tick ago (unit: newtons)
+        Vec3 damped{0.0};                     // traditional: by its passivity, one tick ago (unit: newtons)
         TouchedBody touched;                  // one tick ago
         bool known = false;                   // there was such a tick
         bool answered = false;                // traditional: what the far side said last still held then
         OperatorPassivity passivity;
         PassiveUpdate update;
-        // Sending.
-        OperatorSample sent;
-        bool has_sent = false;
-        Nanoseconds sent_at = 0;
+        SentHand sent;
     };
 
     // The same for a tool.
@@ -99,16 +110,15 @@ private:
         Pose hand;                         // ToolHand::goal, one tick ago
         Vec3 place{0.0};                   // ToolHand::place, one tick ago (unit: meters)
         Wrench given;                      // to the hand, one tick ago
+        Vec3 damped{0.0};                  // traditional: by its passivity, one tick ago (unit: newtons)
         TouchedBody touched;               // one tick ago
         bool known = false;
         bool answered = false;
         bool fixed = false;               // ToolHand::fixed, one tick ago
         Quat turned{1.0, 0.0, 0.0, 0.0};  // where it is, as it is turned there
+        bool has_fit = false;             // into the model, since the hand has held it
         WrenchPassivity passivity;
-        // Sending.
-        OperatorSample sent;
-        bool has_sent = false;
-        Nanoseconds sent_at = 0;
+        SentHand sent;
     };
 
     // A body of the model that moves by itself, while something is learnt about it.
@@ -134,6 +144,7 @@ private:
 
     // --- operator_side.cpp
     void take_settings(SessionLoop& loop);
+    void hold_back_hands(SessionLoop& loop);
     void round_hands(SessionLoop& loop) const;
     void begin_model(SessionLoop& loop);
     void forget_past();
@@ -151,6 +162,7 @@ private:
     void take(const ForceSample& force);
     void take(const WrenchSample& wrench);
     void take(const ObjectEstimates& estimates, std::uint64_t packet);
+    void take(const SampleAcknowledgements& acknowledgements);
     void follow_far_side(SessionLoop& loop);
     bool nothing_is_touched(SessionLoop& loop) const;
     bool is_news(SessionLoop& loop, SessionHandle body) const;
@@ -204,6 +216,10 @@ private:
 
     // --- operator_sending.cpp
     void acknowledge();
+    bool is_guessed(const SentHand& sent, const OperatorSample& sample) const;
+    bool is_due(const SentHand& sent, Nanoseconds now) const;
+    void send_absence(SentHand& sent, Nanoseconds now);
+    void send(SentHand& sent, const OperatorSample& sample, bool says_nothing_new, Nanoseconds now);
     void send_sample(SessionLoop& loop, std::size_t index, Nanoseconds now);
     void find_nearest(SessionLoop& loop, const SessionLoop::ProxySlot& slot, OperatorSample& sample) const;
 
@@ -233,6 +249,7 @@ private:
     std::uint32_t replays_without_tool_ = 0;  // one after the other
     bool corrected_ = false;                  // in this tick
     bool changed_ = false;  // something else than a correction has changed what is touched in this tick
+    ForceLimits limits_;    // see max_unexplained_step
     TeleopStatistics statistics_;
     bool restart_waits_ = false;  // the owner has not been told yet
 };

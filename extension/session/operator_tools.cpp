@@ -197,7 +197,20 @@ void OperatorSide::feel(SessionLoop& loop, std::size_t index, ToolSlot& slot) {
     }
     tool.touched = touched;
     const bool same_model = tool.known && !settings().traditional && !corrected_ && !changed;
-    slot.own_change = same_model ? glm::distance(modelled.force, tool.modelled.force) : 0.0;
+    const double way = glm::distance(slot.hand.goal.position, tool.hand.position) +
+                       length * angle_between(slot.hand.goal.rotation, tool.hand.rotation);
+    const double own_doing = 2.0 * slot.use.settings.stiffness * way;
+    // See feel() for a pointer.
+    const Vec3 damped =
+        settings().traditional ? whole - traditional_.far_tool(index).wrench.force : Vec3(0.0);
+    const double damped_more = glm::distance(damped, std::exchange(tool.damped, damped));
+    if (!tool.known) {
+        slot.own_change = 0.0;
+    } else if (settings().traditional) {
+        slot.own_change = settings().passivity != Passivity::none && tool.answered ? damped_more : 0.0;
+    } else {
+        slot.own_change = std::min(glm::distance(modelled.force, tool.modelled.force), own_doing);
+    }
     const Wrench felt =
         tool.felt.feel(settings().stealth,
                        {modelled, slot.hand.velocity_at(slot.hand.place), slot.hand.spin,
@@ -243,35 +256,28 @@ void OperatorSide::hide_changes(Tool& tool, const Wrench& modelled, const ToolSl
 void OperatorSide::send_tool(SessionLoop& loop, std::size_t index, const ToolSlot& slot, Nanoseconds now) {
     Tool& tool = tools_[index];
     const DeviceSample device = loop.device_sample(slot.use.device);
-    const DeadbandSettings& deadband = settings().deadband;
     const Pose& frame = settings().frame;
     const Pose place = compose(inverse(frame), slot.hand.goal);
     OperatorSample sample;
     sample.sequence = sample_;
     sample.time = channel_.link().local_time(now);
     sample.pointer = static_cast<std::uint16_t>(first_tool + index);
-    sample.connected = device.connected && slot.use.enabled;
+    // One that comes and does not fit in where the hand holds it presses nothing in the model, and nothing at
+    // the far side. One that a correction has left no room presses on there.
+    const bool is_held = device.connected && slot.use.enabled;
+    const bool is_absent = !settings().traditional && (slot.state.status & tool_absent) != 0;
+    tool.has_fit = is_held && (tool.has_fit || !is_absent);
+    sample.connected = is_held && tool.has_fit;
     sample.buttons = device.buttons;
     sample.position = place.position;
     sample.velocity = direction_to_local(frame, slot.hand.velocity);
     sample.has_turn = true;
     sample.rotation = place.rotation;
     sample.spin = direction_to_local(frame, slot.hand.spin);
-    if (deadband.enabled && tool.has_sent && now - tool.sent_at < deadband.longest_silence) {
-        const OperatorSample& last = tool.sent;
-        const double seconds = static_cast<double>(sample_ - last.sequence) * seconds_;
-        const Vec3 guessed = guessed_position(last.position, last.velocity, seconds);
-        const Quat turned = turn_by(last.spin, seconds) * last.rotation;
-        if (!position_needs_sending(deadband, guessed, sample.position, sample.velocity) &&
-            angle_between(turned, sample.rotation) <= deadband.angle && sample.buttons == last.buttons &&
-            sample.connected == last.connected) {
-            return;
-        }
+    const bool says_nothing_new = is_guessed(tool.sent, sample);
+    if (!says_nothing_new || is_due(tool.sent, now)) {
+        send(tool.sent, sample, says_nothing_new, now);
     }
-    tool.sent = sample;
-    tool.has_sent = true;
-    tool.sent_at = now;
-    samples_.add(sample);
 }
 
 }  // namespace tactus

@@ -219,6 +219,7 @@ Vec3 OperatorSide::passive_force(std::size_t index, const SessionLoop::ProxySlot
     in.far_force = far.force;
     in.far_sample = far.sample;
     in.seconds = seconds_;
+    in.far_taken = far.taken;
     if (!answers) {
         passivity.rest(settings().passive, in);
         return Vec3(0.0);
@@ -229,7 +230,10 @@ Vec3 OperatorSide::passive_force(std::size_t index, const SessionLoop::ProxySlot
 // What has left for the device is what the hand has felt, and what the far side is told of.
 void OperatorSide::note_given(SessionLoop& loop, std::size_t index) {
     Pointer& pointer = pointers_[index];
-    pointer.force = loop.given_force(loop.proxy(index));
+    const SessionLoop::ProxySlot& slot = loop.proxy(index);
+    const Vec3 before = std::exchange(pointer.force, loop.given_force(slot));
+    const double step = glm::distance(pointer.force, before) - slot.own_change;
+    statistics_.largest_unexplained_step = std::max(statistics_.largest_unexplained_step, step);
     pointer.passivity.given(settings().passive, pointer.force, seconds_);
 }
 
@@ -277,7 +281,8 @@ void OperatorSide::feel(SessionLoop& loop, std::size_t index, SessionLoop::Proxy
     in.hand_velocity = way / seconds_;
     in.seconds = seconds_;
     if (settings().traditional) {
-        const bool answers = traditional_.answers(index, sample_, channel_.link().hears_peer(), silence());
+        const bool answers =
+            traditional_.answers(index, sample_, channel_.link().hears_peer(), silence()) && !slot.idle;
         changed |= std::exchange(pointer.answered, answers) != answers;
         in.modelled = passive_force(index, slot, answers);
         traditional_.describe(index, slot, in.modelled);
@@ -298,8 +303,20 @@ void OperatorSide::feel(SessionLoop& loop, std::size_t index, SessionLoop::Proxy
         pointer.felt.let_go();
     }
     pointer.touched = touched;
-    const bool same_model = pointer.known && !settings().traditional && !corrected_ && !changed;
-    slot.own_change = same_model ? glm::distance(in.modelled, pointer.modelled) : 0.0;
+    const Vec3 turned_speed = slot.hand_velocity - pointer.velocity;
+    const double own_doing =
+        2.0 * spring.steepest() * glm::length(way) + slot.step.damping * glm::length(turned_speed);
+    // What keeps traditional touch passive follows the hand's motion.
+    const Vec3 damped = settings().traditional ? whole - traditional_.far(index).force : Vec3(0.0);
+    const double damped_more = glm::distance(damped, std::exchange(pointer.damped, damped));
+    if (!pointer.known) {
+        slot.own_change = 0.0;
+    } else if (settings().traditional) {
+        slot.own_change = settings().passivity != Passivity::none && pointer.answered ? damped_more : 0.0;
+    } else {
+        slot.own_change = std::min(glm::distance(in.modelled, pointer.modelled), own_doing);
+    }
+    pointer.velocity = slot.hand_velocity;
     const Vec3 modelled = in.modelled;
     if (settings().correction == Correction::passive && !settings().traditional) {
         in.modelled = pointer.update.feel(settings().update, in);

@@ -10,13 +10,16 @@ inline void ask(Session& session, const command::RemoveBody& c) {
     session.remove_body(c.handle);
 }
 inline void ask(Session& session, const command::TeleportBody& c) {
-    session.teleport_body(c.handle, c.pose);
+    session.teleport_body(c.handle, c.pose, c.axes);
+}
+inline void ask(Session& session, const command::ShiftBody& c) {
+    session.shift_body(c.handle, c.by, c.turn);
 }
 inline void ask(Session& session, const command::MoveBody& c) {
     session.move_body(c.handle, c.pose, c.seconds);
 }
 inline void ask(Session& session, const command::SetBodyVelocity& c) {
-    session.set_body_velocity(c.handle, c.linear, c.angular);
+    session.set_body_velocity(c.handle, c.linear, c.angular, c.axes);
 }
 inline void ask(Session& session, const command::SetTouchMaterial& c) {
     session.set_touch_material(c.handle, c.material, c.detail);

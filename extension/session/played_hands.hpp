@@ -29,6 +29,7 @@ public:
     void take(const OperatorSamples& samples, ToolOf&& tool) {
         for (std::size_t i = 0; i < samples.count; ++i) {
             const OperatorSample& sample = samples.samples[i];
+            note_standing(sample);
             if (sample.pointer < pointers_ && !sample.has_turn) {
                 buffers_[sample.pointer].insert(sample);
             } else if (sample.pointer >= first_tool && sample.has_turn) {
@@ -53,8 +54,25 @@ public:
         return tool.heard->play(played);
     }
 
-    // Nobody is there, or another one: what comes next is a new beginning.
+    // Whether the operator's hand was not there, see JitterBuffer::leads().
+    bool leads(std::size_t pointer) const { return buffers_[pointer].leads(); }
+    static bool leads(const ToolSlot& tool) { return tool.heard && tool.heard->leads(); }
+
+    // Once a tick: true where samples have come that stand, which are to be acknowledged.
+    bool acknowledges(SampleAcknowledgements& message) {
+        message.count = 0;
+        for (std::size_t i = 0; i < standing_.size(); ++i) {
+            if (standing_[i].is_new) {
+                standing_[i].is_new = false;
+                message.samples[message.count++] = {static_cast<std::uint16_t>(i), standing_[i].sequence};
+            }
+        }
+        return message.count > 0;
+    }
+
+    // The hands are gone, or are those of another operator: what comes next is a new beginning.
     void restart() {
+        standing_ = {};
         for (JitterBuffer<PointerSample>& buffer : buffers_) {
             if (buffer.counts().exact > 0) {
                 buffer.restart();
@@ -73,6 +91,23 @@ public:
     }
 
 private:
+    struct Standing {
+        SampleSequence sequence = no_sample;
+        bool is_new = false;
+    };
+    static_assert(first_tool + max_tools <= SampleAcknowledgements::max_count);
+
+    void note_standing(const OperatorSample& sample) {
+        const double spin = sample.has_turn ? glm::length(sample.spin) : 0.0;
+        const bool is_repeated = settings_.sparse || !sample.connected;
+        if (!is_repeated || sample.pointer >= standing_.size() ||
+            !stands(glm::length(sample.velocity), spin)) {
+            return;
+        }
+        Standing& newest = standing_[sample.pointer];
+        newest = sample.sequence > newest.sequence ? Standing{sample.sequence, true} : newest;
+    }
+
     void set(const Channel& channel) {
         period_ = channel.link().statistics().peer_hello.period;
         settings_.depth = channel.settings().buffer_depth;
@@ -92,6 +127,7 @@ private:
     JitterBufferSettings settings_;
     std::uint64_t settings_revision_ = 0;
     std::array<JitterBuffer<PointerSample>, max_proxies> buffers_;
+    std::array<Standing, first_tool + max_tools> standing_{};
 };
 
 }  // namespace tactus

@@ -34,9 +34,9 @@ void append(std::string& text, const Vec3& vector) {
 }  // namespace
 
 std::string record_csv_header() {
-    return "time_us,force_x,force_y,force_z,object_x,object_y,object_z,hand_x,hand_y,hand_z,proxy_x,proxy_y,"
-           "proxy_z,"
-           "object_qx,object_qy,object_qz,object_qw,proxy_status,contacts\n";
+    return "time_us,force_x,force_y,force_z,object_x,object_y,object_z,hand_x,hand_y,hand_z,"
+           "proxy_x,proxy_y,proxy_z,object_qx,object_qy,object_qz,object_qw,proxy_status,contacts,"
+           "displayed_x,displayed_y,displayed_z,ran_us,force_cut\n";
 }
 
 void append_record_csv(std::string& text, const SessionRecord& record, Nanoseconds epoch) {
@@ -53,6 +53,11 @@ void append_record_csv(std::string& text, const SessionRecord& record, Nanosecon
     append(text, static_cast<std::int64_t>(record.proxy_status));
     text += ',';
     append(text, static_cast<std::int64_t>(record.contacts));
+    append(text, record.displayed);
+    text += ',';
+    append(text, (record.ran + epoch) / 1000);
+    text += ',';
+    append(text, static_cast<std::int64_t>(record.cuts));
     text += '\n';
 }
 

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "network/plausibility.hpp"
+#include "session/hand_terms.hpp"
 
 namespace tactus {
 
@@ -51,7 +52,7 @@ void RobotSide::set_hands(SessionLoop& loop, Nanoseconds now) {
     }
     for (std::size_t i = 0; i < max_tools; ++i) {
         if (ToolSlot* const slot = loop.tool(i)) {
-            play(loop, tools_[i], *slot);
+            play(loop, i, *slot);
         }
     }
 }
@@ -88,9 +89,12 @@ void RobotSide::receive(SessionLoop& loop) {
 
 void RobotSide::play(SessionLoop& loop, std::size_t index, const SessionLoop::ProxySlot& slot) {
     Pointer& pointer = pointers_[index];
-    const bool waits = hands_.play(index, pointer.played) == Playing::waiting;
+    pointer.playing = hands_.play(index, pointer.played);
+    const bool waits = pointer.playing == Playing::waiting;
     const RobotView robot = loop.robot(slot.description.device);
-    if (waits || !pointer.played.connected || !robot.connected || !channel_.link().hears_peer()) {
+    const bool is_there = slot.present() && robot.connected;
+    if (waits || !pointer.played.connected || !is_there || !channel_.link().hears_peer() ||
+        !channel_.works_together(index)) {
         pointer.holds = false;
         touch_.let_go(index);
         return;
@@ -127,6 +131,7 @@ Vec3 RobotSide::hand_of(Pointer& pointer, const SessionLoop::ProxySlot& slot, co
         in.force = direction_to_parent(frame, played.force);
         in.own_force = pointer.contact;
         in.seconds = seconds_;
+        in.is_exact = pointer.playing == Playing::exact || pointer.playing == Playing::guessed;
         return pointer.passivity.hand(settings().passivity, settings().passive, in);
     }
     StandInInput in;
@@ -177,7 +182,14 @@ void RobotSide::report(SessionLoop& loop, Nanoseconds now) {
         }
     }
     tell_tools(loop, now);
+    if (SampleAcknowledgements standing; hands_.acknowledges(standing)) {
+        channel_.send(standing);
+    }
     hands_.tell(statistics_);
+    Terms terms = channel_.terms_of_settings();
+    terms.bodies = settings().traditional ? 0 : loop.bodies_end();
+    note_hands(loop, terms);
+    channel_.set_own(terms);
     channel_.end_tick(statistics_);
 }
 
@@ -198,6 +210,7 @@ void RobotSide::send_forces(SessionLoop& loop, Nanoseconds now) {
                                   -plausible::max_force, plausible::max_force);
         sample.proxy = to_local(settings().frame, loop.proxy(i).hand);
         sample.object = no_object;
+        sample.taken = told_energy(pointer.passivity.taken());
     }
     if (message.count == 0 || !channel_.try_send(message)) {
         return;

@@ -34,6 +34,7 @@ public:
 private:
     struct Pointer {
         PointerSample played;
+        Playing playing = Playing::waiting;
         FarPassivity passivity;
         ContactObserver observer;
         bool holds = false;  // an operator's hand is there and the robot answers
@@ -81,7 +82,7 @@ private:
 
     // --- robot_tools.cpp
     static Wrist wrist_of(const RobotView& robot);
-    void play(SessionLoop& loop, Tool& tool, ToolSlot& slot);
+    void play(SessionLoop& loop, std::size_t index, ToolSlot& slot);
     void feel(SessionLoop& loop, Tool& tool, const ToolSlot& slot, const RobotView& robot) const;
     void lead(Tool& tool, const ToolSlot& slot, const RobotView& robot) const;
     static void drive(const Tool& tool, ToolSlot& slot);

@@ -31,13 +31,15 @@ RobotSide::Wrist RobotSide::wrist_of(const RobotView& robot) {
     return !can.rotates ? Wrist::stiff : can.max_torque > 0.0 ? Wrist::driven : Wrist::loose;
 }
 
-void RobotSide::play(SessionLoop& loop, Tool& tool, ToolSlot& slot) {
+void RobotSide::play(SessionLoop& loop, std::size_t index, ToolSlot& slot) {
+    Tool& tool = tools_[index];
     const bool waits = hands_.play(slot, tool.played) == Playing::waiting;
     const RobotView robot = loop.robot(slot.use.device);
     tool.wrist = wrist_of(robot);
     const bool can_hold = tool.wrist == Wrist::stiff || tool.wrist == Wrist::driven;
     const bool answers = can_hold && slot.hand.holds;
-    if (waits || !tool.played.connected || !answers || !channel_.link().hears_peer()) {
+    if (waits || !tool.played.connected || !answers || !channel_.link().hears_peer() ||
+        !channel_.works_together(first_tool + index)) {
         tool.holds = false;
         return;
     }

@@ -248,7 +248,7 @@ void Session::rest() {
     }
 }
 
-TickStatus Session::tick(Nanoseconds now, TickTrace* trace) {
+TickStatus Session::tick(Nanoseconds now, TickTrace* trace, Nanoseconds late) {
     const HapticRole loop_side;
     TickStatus status = 0;
     {
@@ -259,10 +259,10 @@ TickStatus Session::tick(Nanoseconds now, TickTrace* trace) {
             status |= session_commands_waiting;
         }
         if (impl_->recorder) {
-            impl_->recorder->begin_tick(now, taken.commands);
+            impl_->recorder->begin_tick({now, taken.commands, late});
         }
     }
-    status |= impl_->loop.tick(now, trace);
+    status |= impl_->loop.tick(now, trace, late);
     if (impl_->recorder) {
         impl_->recorder->end_tick(impl_->loop.outcome());
     }

@@ -61,7 +61,8 @@ struct ReadyBody {
 
 struct AddResult {
     SessionHandle handle = no_handle;
-    std::string error;  // what is wrong and what to do; empty where the handle is valid
+    std::string error;     // what is wrong and what to do; empty where the handle is valid
+    bool is_full = false;  // there is no place for it, and nothing is wrong with it
 };
 
 class Session {
@@ -91,11 +92,21 @@ public:
     // `shape`: what narrowed() makes for that radius of what the body is touched by now. Nothing is felt of
     // it but that ticks are shorter. Of a body that gives, or of another form's triangles, it is not taken.
     void narrow_touch(SessionHandle body, std::shared_ptr<const TouchShape> shape, double radius);
-    // Where the body is from the next tick on, without a way there: nothing is pushed.
-    void teleport_body(SessionHandle body, const Pose& pose);
+    // Where the body is from the next tick on, without a way there: nothing is pushed. `axes`: bits 0 to 2
+    // take x, y and z of the pose, bit 3 its rotation; the others stay as they are by then. False, and
+    // nothing is done, where the pose is none.
+    static constexpr std::uint32_t all_of_pose = 0b1111;
+    bool teleport_body(SessionHandle body, const Pose& pose, std::uint32_t axes = all_of_pose);
+    // The same, relative to where the body is by then: moved `by` (unit: meters), and turned about its own
+    // position. False, and nothing is done, where these are no numbers.
+    bool shift_body(SessionHandle body, const Vec3& by, const Quat& turn);
     // Moves a kinematic (or static) body there within `seconds`, pushing what is in the way.
     void move_body(SessionHandle body, const Pose& pose, double seconds);
-    void set_body_velocity(SessionHandle body, const Vec3& linear, const Vec3& angular);
+    // `axes`: bits 0 to 2 set x, y and z of the linear velocity, bits 3 to 5 those of the angular one; the
+    // others stay as they are by then.
+    static constexpr std::uint32_t all_of_velocity = 0b111111;
+    void set_body_velocity(SessionHandle body, const Vec3& linear, const Vec3& angular,
+                           std::uint32_t axes = all_of_velocity);
     void set_touch_material(SessionHandle body, const TouchMaterial& material,
                             std::shared_ptr<const TouchDetail> detail = nullptr);
     void set_body_layers(SessionHandle body, const CollisionLayers& layers);
@@ -174,8 +185,9 @@ public:
     // --- loop side
     // --------------------------------------------------------------------------------------------------
 
-    // One tick at `now`, a time that rises by the period. `trace` may be null.
-    TickStatus tick(Nanoseconds now, TickTrace* trace = nullptr);
+    // One tick at `now`, a time that rises by the period. `trace` may be null. `late`: how long after `now`
+    // it begins, for what is recorded (unit: nanoseconds).
+    TickStatus tick(Nanoseconds now, TickTrace* trace = nullptr, Nanoseconds late = 0);
 
     // Where ticks stop for a while, or for good: devices are given no force, and the snapshot says so. A hand
     // that is elsewhere when they go on begins anew there, without a kick.

@@ -16,6 +16,7 @@ bool changes_touch(const Command& command) {
     return std::holds_alternative<command::AddBody>(command) ||
            std::holds_alternative<command::RemoveBody>(command) ||
            std::holds_alternative<command::TeleportBody>(command) ||
+           std::holds_alternative<command::ShiftBody>(command) ||
            std::holds_alternative<command::SeeBody>(command) ||
            std::holds_alternative<command::SetTouchMaterial>(command) ||
            std::holds_alternative<command::SetBodyLayers>(command) ||
@@ -81,6 +82,7 @@ bool SessionLoop::carry_out(command::AddBody& c, Retired& retired) {
         return give_back();
     }
     bodies_[c.handle] = {};
+    bodies_end_ = std::max(bodies_end_, c.handle + 1);
     Body& added = bodies_[c.handle];
     added.id = id;
     added.slot = slot;
@@ -175,6 +177,9 @@ bool SessionLoop::carry_out(command::RemoveBody& c, Retired& retired) {
                nullptr,
                std::move(removed->former)};
     *removed = {};
+    while (bodies_end_ > 0 && !body(bodies_end_ - 1)) {
+        --bodies_end_;
+    }
     return true;
 }
 
@@ -224,11 +229,25 @@ void SessionLoop::take_forms() {
 
 bool SessionLoop::carry_out(command::TeleportBody& c, Retired&) {
     if (Body* const moved = body(c.handle)) {
-        end_travel(c.handle);
-        physics_.set_pose(moved->id, c.pose);
-        place(c.handle, c.pose, true);
+        put(c.handle, written(physics_.pose(moved->id), c.pose, c.axes));
     }
     return false;
+}
+
+bool SessionLoop::carry_out(command::ShiftBody& c, Retired&) {
+    if (Body* const moved = body(c.handle)) {
+        put(c.handle, shifted(physics_.pose(moved->id), c.by, c.turn));
+    }
+    return false;
+}
+
+// As the owner has asked for.
+void SessionLoop::put(SessionHandle handle, const Pose& pose) {
+    Body& moved = bodies_[handle];
+    end_travel(handle);
+    ++moved.asked;
+    physics_.set_pose(moved.id, pose);
+    place(handle, pose, true);
 }
 
 void SessionLoop::start_travel(SessionHandle handle, const Pose& target, double seconds) {
@@ -253,8 +272,13 @@ bool SessionLoop::carry_out(command::MoveBody& c, Retired&) {
 }
 
 bool SessionLoop::carry_out(command::SetBodyVelocity& c, Retired&) {
-    if (const Body* const changed = body(c.handle)) {
-        physics_.set_velocity(changed->id, c.linear, c.angular);
+    if (Body* const changed = body(c.handle)) {
+        ++changed->asked;
+        const BodyMotion now = with_velocity(motion(c.handle), {{}, c.linear, c.angular}, c.axes);
+        physics_.set_velocity(changed->id, now.linear_velocity, now.angular_velocity);
+        if (state_of_[c.handle] != no_handle) {
+            note_state(c.handle, motion(c.handle));
+        }
     }
     return false;
 }
@@ -408,7 +432,9 @@ bool SessionLoop::carry_out(command::AddDevice& c, Retired&) {
 }
 
 bool SessionLoop::carry_out(command::SetWorkspace& c, Retired&) {
-    devices_[c.handle].workspace = c.workspace;
+    DeviceSlot& slot = devices_[c.handle];
+    slot.workspace = c.workspace;
+    slot.wanted_stiffness = slot.used_stiffness = 0.0;  // another scale makes other walls of them
     note_hand_change(c.handle);
     return false;
 }

@@ -44,6 +44,12 @@ struct NarrowTouch {
 struct TeleportBody {
     SessionHandle handle;
     Pose pose;
+    std::uint32_t axes;  // see Session::teleport_body
+};
+struct ShiftBody {
+    SessionHandle handle;
+    Vec3 by;    // (unit: meters)
+    Quat turn;  // about its own position
 };
 struct MoveBody {
     SessionHandle handle;
@@ -53,6 +59,7 @@ struct MoveBody {
 struct SetBodyVelocity {
     SessionHandle handle;
     Vec3 linear, angular;
+    std::uint32_t axes;  // see Session::set_body_velocity
 };
 struct SetTouchMaterial {
     SessionHandle handle;
@@ -158,14 +165,16 @@ struct Attach {
 
 namespace tactus {
 
-using Command = std::variant<
-    command::AddBody, command::RemoveBody, command::DeformBody, command::NarrowTouch, command::TeleportBody,
-    command::MoveBody, command::SetBodyVelocity, command::SetTouchMaterial, command::SetBodySurface,
-    command::SetBodyLayers, command::SetBodyMotion, command::SetBodyGravityScale, command::SetBodyDamping,
-    command::SetBodyPush, command::SeeBody, command::PushBody, command::AddJoint, command::RemoveJoint,
-    command::SetGravity, command::AddDevice, command::SetWorkspace, command::RemoveDevice, command::AddProxy,
-    command::SetProxy, command::SetField, command::RemoveProxy, command::AddTool, command::SetTool,
-    command::RemoveTool, command::Record, command::EndRecording, command::Attach>;
+using Command =
+    std::variant<command::AddBody, command::RemoveBody, command::DeformBody, command::NarrowTouch,
+                 command::TeleportBody, command::ShiftBody, command::MoveBody, command::SetBodyVelocity,
+                 command::SetTouchMaterial, command::SetBodySurface, command::SetBodyLayers,
+                 command::SetBodyMotion, command::SetBodyGravityScale, command::SetBodyDamping,
+                 command::SetBodyPush, command::SeeBody, command::PushBody, command::AddJoint,
+                 command::RemoveJoint, command::SetGravity, command::AddDevice, command::SetWorkspace,
+                 command::RemoveDevice, command::AddProxy, command::SetProxy, command::SetField,
+                 command::RemoveProxy, command::AddTool, command::SetTool, command::RemoveTool,
+                 command::Record, command::EndRecording, command::Attach>;
 
 // What has left the loop. Its handle may be given out again once the owner has seen this.
 struct Retired {

@@ -19,6 +19,10 @@ namespace {
 constexpr double no_limit = std::numeric_limits<double>::infinity();
 constexpr ForceLimits local_touch{no_limit, no_limit, no_limit};
 
+// No handle turns farther from one tick to the next, also where its rotation comes a hundred times a second
+// (unit: radians).
+constexpr double farthest_turn = 1.0;
+
 SafetySettings settings_of(const DeviceCapabilities& device, const Workspace& workspace,
                            const ForceLimits& side, bool drives) {
     SafetySettings settings;
@@ -28,6 +32,7 @@ SafetySettings settings_of(const DeviceCapabilities& device, const Workspace& wo
     settings.torque_limits = {device.max_torque_slew, device.max_energy, device.max_power};
     settings.max_torque = device.max_torque;
     settings.max_speed = device.max_speed;
+    settings.max_turn = device.feels ? farthest_turn : SafetySettings::none;
     settings.ramp = device.ramp;
     settings.dead_man = workspace.dead_man;
     settings.passive = device.feels && !drives;
@@ -47,6 +52,7 @@ void SessionLoop::read_devices(Nanoseconds now) {
         }
         const DeviceSample sample = slot.device->read(now);
         slot.heard = sample;
+        slot.displayed = slot.device->displayed();
         const DeviceCapabilities before = std::exchange(slot.capabilities, slot.device->capabilities());
         slot.jumped = slot.jumped || slot.capabilities != before;
         if (recorder_) {
@@ -63,6 +69,7 @@ void SessionLoop::read_devices(Nanoseconds now) {
         }
         slot.silent = slot.sample.connected ? 0.0 : slot.silent + seconds_;
         place_hand(slot);
+        slot.has_pressed = false;
         slot.force = Vec3(0.0);
         slot.torque = Vec3(0.0);
     }
@@ -246,7 +253,11 @@ SessionLoop::Lead SessionLoop::lead(ProxySlot& slot, const LoopLag& lag, double 
 void SessionLoop::note_walls(const ProxySlot& slot, DeviceSlot& device) const {
     for (int i = 0; i < slot.parts.contact_count; ++i) {
         const ContactForce& part = slot.parts.contacts[i];
-        if (part.wall.stiffness < part.wanted_stiffness) {
+        if (!std::exchange(device.has_pressed, true)) {
+            device.wanted_stiffness = device.used_stiffness = 0.0;
+        }
+        const double left_out = part.wanted_stiffness - part.wall.stiffness;
+        if (left_out > device.wanted_stiffness - device.used_stiffness) {
             device.wanted_stiffness = part.wanted_stiffness;
             device.used_stiffness = part.wall.stiffness;
         }

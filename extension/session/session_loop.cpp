@@ -57,7 +57,7 @@ SessionLoop::SessionLoop(const SessionSettings& settings, TripleBuffer<SessionSn
     hands_.reserve(max_proxies + max_tools);
 }
 
-TickStatus SessionLoop::tick(Nanoseconds now, TickTrace* trace) {
+TickStatus SessionLoop::tick(Nanoseconds now, TickTrace* trace, Nanoseconds late) {
     TACTUS_ASSERT_HAPTIC_THREAD();
     ++tick_;
     time_ = now;
@@ -110,7 +110,7 @@ TickStatus SessionLoop::tick(Nanoseconds now, TickTrace* trace) {
     if (recording_count_ > 0) {
         const TraceScope scope(trace, TickStage::append_record);
         for (const Recording& recording : std::span(recordings_).first(recording_count_)) {
-            append_record(recording, now);
+            append_record(recording, now, late);
         }
     }
     return std::exchange(status_, 0u);
@@ -131,7 +131,11 @@ void SessionLoop::place(SessionHandle handle, const BodyMotion& now, bool telepo
 
 void SessionLoop::note_state(SessionHandle handle, const BodyMotion& now) {
     const std::uint32_t state = state_of_[handle];
-    states_[state] = {handle, now.pose, now.linear_velocity, now.angular_velocity};
+    states_[state] = {.handle = handle,
+                      .pose = now.pose,
+                      .linear_velocity = now.linear_velocity,
+                      .angular_velocity = now.angular_velocity,
+                      .asked = bodies_[handle].asked};
     note_change(state);
 }
 
@@ -183,6 +187,9 @@ void SessionLoop::touch_all(Nanoseconds now) {
     if (side_ && !side_->simulates()) {
         for (ProxySlot& slot : proxies_) {
             slot.parts = {};  // nothing is touched here, so nothing is pressed
+            if (!slot.present()) {
+                slot.state = {};
+            }
         }
         return;
     }
@@ -250,9 +257,10 @@ void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
         slot.torsion.count = 0;
         slot.proxy->restart();
         slot.walls = {};
-        slot.state = {};
-        slot.state.position = slot.state.hand = slot.hand;
-        slot.state.status = touch_unheld;
+        const ProxyState before = std::exchange(slot.state, {});
+        slot.state.position = slot.idle ? before.position : slot.hand;
+        slot.state.hand = slot.idle ? before.hand : slot.hand;
+        slot.state.status = slot.idle ? far_hand_away : touch_unheld;
         slot.step = step_of(slot);
         slot.jumped = true;
         return;
@@ -272,7 +280,12 @@ void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
     // Like a guide, a field has half of what is left, and walls have the rest.
     const HandMotion motion{slot.hand, slot.hand_velocity};
     const Wall field = safe_wall(lag, 0.5 * unled, slot.field.begin_tick(now));
-    const Vec3 field_force = slot.field.force(motion, field);
+    const double most_damping =
+        device.capabilities.feels
+            ? std::min(HandField::thickest,
+                       damping_in_scene(device.workspace, device.capabilities.max_damping))
+            : HandField::thickest;
+    const Vec3 field_force = slot.field.force(motion, field, most_damping);
     const double left = unled - damping_needed(field.stiffness, lag) - field.damping;
     force = contact_force(scene_, slot.proxy->touching(), tick.slide, slot.hand_velocity, seconds_,
                           {lag, left, slot.description.finger.stiffness});
@@ -549,17 +562,23 @@ std::uint64_t SessionLoop::outcome() const {
     return hash.value();
 }
 
-void SessionLoop::append_record(const Recording& recording, Nanoseconds now) {
+void SessionLoop::append_record(const Recording& recording, Nanoseconds now, Nanoseconds late) {
     if (recording.proxy >= max_proxies || !proxies_[recording.proxy].proxy) {
         return;
     }
     const ProxyState& state = proxies_[recording.proxy].state;
     SessionRecord row;
     row.time = now;
+    row.ran = now + late;
     row.proxy = recording.proxy;
     row.hand = state.hand;
     row.proxy_position = state.position;
     row.force = state.force;
+    if (const SessionHandle device = proxies_[recording.proxy].description.device; device < max_devices) {
+        const DeviceSlot& slot = devices_[device];
+        row.displayed = slot.displayed ? force_in_scene(slot.workspace, slot.displayed->force) : slot.force;
+        row.cuts = slot.displayed ? slot.displayed->cuts : 0u;
+    }
     row.proxy_status = state.status;
     row.contacts = static_cast<std::uint32_t>(state.contact_count);
     if (const Body* object = body(recording.object)) {

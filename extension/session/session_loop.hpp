@@ -49,6 +49,7 @@ public:
         std::optional<PoseDoubt> doubt;  // none: it has never been seen
         Nanoseconds guessed_until = 0;   // it goes on as it was seen to
         std::shared_ptr<SoftSlot> soft;  // null: it does not give; else the one that owns `shape`
+        std::uint32_t asked = 0;         // see BodyState::asked
     };
 
     // What touching the scene gives a hand.
@@ -109,7 +110,7 @@ public:
     // After the first bodies have come in and before the first tick.
     void settle() { physics_.settle_broad_phase(); }
 
-    TickStatus tick(Nanoseconds now, TickTrace* trace);
+    TickStatus tick(Nanoseconds now, TickTrace* trace, Nanoseconds late);
 
     // See Session.
     void rest();
@@ -122,6 +123,8 @@ public:
 
     double seconds() const { return seconds_; }
     std::size_t max_bodies() const { return bodies_.size(); }
+    // One more than the highest handle of a body; 0: there is none.
+    std::uint32_t bodies_end() const { return bodies_end_; }
     Body* body(SessionHandle handle);  // null where there is none
     const Body* body(SessionHandle handle) const;
     SessionHandle body_in(int slot) const {  // of the touch scene
@@ -207,16 +210,17 @@ private:
         Vec3 offset{0.0};         // in the world: what clutch and edge have made of it so far (unit: meters)
         Vec3 hand{0.0};           // in the world (unit: meters)
         Vec3 hand_velocity{0.0};  // in the world (unit: meters per second)
-        Quat rotation{1.0, 0.0, 0.0, 0.0};     // of the handle, in the world
-        Vec3 hand_turn{0.0};                   // in this tick, in the world (unit: radians)
-        Quat turn_offset{1.0, 0.0, 0.0, 0.0};  // in the world: what the clutch has made of it
-        Quat orientation{1.0, 0.0, 0.0, 0.0};  // of the hand, in the world
-        Vec3 torque{0.0};                      // of all its tools, in the world (unit: newton meters)
-        Vec3 force{0.0};                       // of all its proxies, in the world (unit: newtons)
-        Vec3 refused{0.0};                     // of what they wanted, by its limits (unit: newtons)
-        DeviceSample heard;                    // as it came, with whatever nonsense
-        bool is_sound = true;                  // `heard` has none
-        double silent = never_heard;           // since it was connected (unit: seconds)
+        Quat rotation{1.0, 0.0, 0.0, 0.0};        // of the handle, in the world
+        Vec3 hand_turn{0.0};                      // in this tick, in the world (unit: radians)
+        Quat turn_offset{1.0, 0.0, 0.0, 0.0};     // in the world: what the clutch has made of it
+        Quat orientation{1.0, 0.0, 0.0, 0.0};     // of the hand, in the world
+        Vec3 torque{0.0};                         // of all its tools, in the world (unit: newton meters)
+        Vec3 force{0.0};                          // of all its proxies, in the world (unit: newtons)
+        Vec3 refused{0.0};                        // of what they wanted, by its limits (unit: newtons)
+        DeviceSample heard;                       // as it came, with whatever nonsense
+        std::optional<DisplayedForce> displayed;  // up to `heard`
+        bool is_sound = true;                     // `heard` has none
+        double silent = never_heard;              // since it was connected (unit: seconds)
         DeviceCapabilities capabilities;
         FadingWrench fading;       // from both to what its safety is asked for, as the device measures them
         bool jumped = false;       // its owner has changed what makes the force
@@ -224,8 +228,10 @@ private:
         HandSafety safety;
         SafeForce safe;
         double carried = 0.0;  // of the weight of its arm (unit: newtons)
-        // Of what is touched, the last that was not safe (unit: newtons per meter).
+        // Of the walls that were pressed last, the one of which most was not safe; 0: all were (unit: newtons
+        // per meter).
         double wanted_stiffness = 0.0, used_stiffness = 0.0;
+        bool has_pressed = false;  // a wall, in this tick
         bool was_held = false;
 
         // A device is there from its first reading on, and a moment longer than its last: what it touches is
@@ -241,6 +247,7 @@ private:
     bool carry_out(command::DeformBody& c, Retired& retired);
     bool carry_out(command::NarrowTouch& c, Retired& retired);
     bool carry_out(command::TeleportBody& c, Retired&);
+    bool carry_out(command::ShiftBody& c, Retired&);
     bool carry_out(command::MoveBody& c, Retired&);
     bool carry_out(command::SetBodyVelocity& c, Retired&);
     bool carry_out(command::SetTouchMaterial& c, Retired& retired);
@@ -274,6 +281,7 @@ private:
     void take_forms();
     void travel();
     void follow_physics();
+    void put(SessionHandle handle, const Pose& pose);
     void place(SessionHandle handle, const Pose& pose, bool teleport);
     void place(SessionHandle handle, const BodyMotion& now, bool teleport);
     void show_state(SessionHandle handle);
@@ -326,7 +334,7 @@ private:
     void step_soft();
     void guess();
     void publish(Nanoseconds now);
-    void append_record(const Recording& recording, Nanoseconds now);
+    void append_record(const Recording& recording, Nanoseconds now, Nanoseconds late);
     void describe(ProxySlot& slot, const ProxyTick& tick);
 
     SessionSettings settings_;
@@ -363,6 +371,7 @@ private:
     std::int64_t tool_work_ = 0;  // see take_tool_work()
     bool touch_changed_ = false;  // see take_touch_change()
     bool follows_all_ = false;    // a memento was restored: where bodies are is to be read anew
+    std::uint32_t bodies_end_ = 0;
     std::uint64_t tick_ = 0;
     Nanoseconds time_ = 0;  // of the last tick
     TickStatus status_ = 0;

@@ -35,7 +35,7 @@ struct SessionSettings {
     std::uint32_t max_bodies = 4096;  // that may be in the session at once
     std::uint32_t max_parts = 8192;   // shapes of all of them together
     // When more are awake, physics far from every hand takes fewer, longer steps (PhysicsSettings).
-    std::uint32_t full_rate_bodies = 64;
+    std::uint32_t full_rate_bodies = 32;
     // Taken from the owner in one tick; the rest waits for the next. A dynamic body that comes counts as
     // four: it is awake at first, and its contacts are new.
     std::uint32_t commands_per_tick = 64;
@@ -100,6 +100,8 @@ struct BodyState {
     Vec3 linear_velocity{0.0};     // (unit: meters per second)
     Vec3 angular_velocity{0.0};    // (unit: radians per second)
     std::uint64_t changed_at = 0;  // tick
+    // So many teleport_body(), shift_body() and set_body_velocity() have been carried out on it.
+    std::uint32_t asked = 0;
 };
 
 // Bits of ProxyState::status besides ProxyStatus, with a link: what is between the model's force and the
@@ -117,6 +119,10 @@ inline constexpr std::uint32_t touch_unheld = 1u << 22;
 
 // A bit of ProxyState::status: the field of its owner was made weaker, see HandField::is_limited.
 inline constexpr std::uint32_t touch_field_limited = 1u << 23;
+
+// A bit of ProxyState::status and ToolState::status at the far side: no operator's hand is there, and the
+// place is that of the last one.
+inline constexpr std::uint32_t far_hand_away = 1u << 24;
 
 // Bits of ToolState::status besides ToolStatus, with a link to robots.
 enum FarTool : std::uint32_t {
@@ -208,11 +214,16 @@ const typename States::value_type* state_of(const States& states, std::size_t co
 
 // One row of a recording: a proxy and, where a body is followed, that body (thesis 4.5).
 struct SessionRecord {
-    Nanoseconds time = 0;  // the tick's time on the session's clock
+    Nanoseconds time = 0;  // when the tick was due, on the session's clock
+    Nanoseconds ran = 0;   // when it began, on that clock: `time` where no clock drives the session
     SessionHandle proxy = no_handle;
-    Vec3 hand{0.0};             // in the world (unit: meters)
-    Vec3 proxy_position{0.0};   // in the world (unit: meters)
-    Vec3 force{0.0};            // on the hand, in the world (unit: newtons)
+    Vec3 hand{0.0};            // in the world (unit: meters)
+    Vec3 proxy_position{0.0};  // in the world (unit: meters)
+    Vec3 force{0.0};           // that the proxy asks for, in the world (unit: newtons)
+    // That its device was given by all limits, in the world (unit: newtons); where a driver knows it, what
+    // the motors were given up to this tick's reading, and DisplayedForce::cuts.
+    Vec3 displayed{0.0};
+    std::uint32_t cuts = 0;
     Vec3 object_position{0.0};  // of the followed body (unit: meters); zero where none is followed
     Quat object_rotation{1.0, 0.0, 0.0, 0.0};
     std::uint32_t proxy_status = 0;

@@ -85,7 +85,10 @@ struct TeleopStatistics {
     CorrectionCost cost;                // of the last tick
     CorrectionCost spent;               // the sum over all ticks before
     double largest_force_step = 0.0;    // (unit: newtons)
-    double offset = 0.0;                // how far the pointers are carried (unit: meters)
+    // What has left for a hand changed by in a tick, besides what the hand's own motion has done (unit:
+    // newtons).
+    double largest_unexplained_step = 0.0;
+    double offset = 0.0;  // how far the pointers are carried (unit: meters)
     std::array<FeltFigures, max_proxies> pointers;
     std::uint64_t let_go = 0;  // times that a pointer has begun to let go of what was too large to hide
     EnergyFigures energy;
@@ -95,6 +98,8 @@ struct TeleopStatistics {
                          // deviation (unit: meters)
     BufferCounts buffer;
     std::uint64_t buffer_depth = 0;
+    Disagreement disagreement;  // see Channel
+    Terms own_terms, peer_terms;
 };
 
 // An object of the far side and the body that it is here; no_handle: none any more.

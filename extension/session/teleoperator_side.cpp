@@ -7,17 +7,11 @@
 
 #include "core/haptics/surface_feel.hpp"
 #include "core/haptics/surface_spring.hpp"
+#include "core/math/shortened.hpp"
 #include "network/plausibility.hpp"
+#include "session/hand_terms.hpp"
 
 namespace tactus {
-
-namespace {
-
-// A hand that comes back no farther from where it was lost, in the frame of what it pressed, presses still
-// (unit: meters).
-constexpr double same_hand = 0.05;
-
-}  // namespace
 
 TeleoperatorSide::TeleoperatorSide(const SessionSettings& session, const TeleopSettings& settings, Link& link,
                                    std::shared_ptr<TeleopPort> port, const EndpointSettings& endpoint,
@@ -43,9 +37,10 @@ void TeleoperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
     }
     for (std::size_t i = 0; i < share_.most(max_tools); ++i) {
         if (ToolSlot* const slot = tool_of(loop, i)) {
-            play(loop, tools_[i], *slot);
+            play(loop, i, *slot);
         }
     }
+    draw_back_tools(loop);
 }
 
 void TeleoperatorSide::receive(SessionLoop& loop) {
@@ -86,7 +81,8 @@ void TeleoperatorSide::release_hands(SessionLoop& loop) {
 
 void TeleoperatorSide::play(SessionLoop& loop, std::size_t index, SessionLoop::ProxySlot& slot) {
     Pointer& pointer = pointers_[index];
-    const bool waits = hands_.play(index, pointer.played) == Playing::waiting;
+    pointer.playing = hands_.play(index, pointer.played);
+    const bool waits = pointer.playing == Playing::waiting;
     if (!waits) {
         const Pose& frame = settings().frame;
         pointer.here = pointer.played;
@@ -94,21 +90,49 @@ void TeleoperatorSide::play(SessionLoop& loop, std::size_t index, SessionLoop::P
         pointer.here.velocity = direction_to_parent(frame, pointer.played.velocity);
         pointer.here.force = direction_to_parent(frame, pointer.played.force);
     }
-    if (waits || !pointer.played.connected) {
-        if (!slot.idle) {
-            keep(loop, pointer, slot);
-        }
-        slot.idle = true;
-        pointer.holds = false;
+    if (waits || !pointer.played.connected || !channel_.works_together(index)) {
+        let_go(loop, pointer, slot);
         return;
     }
     if (!pointer.holds) {
         pointer.hand = pointer.here.position;
         pointer.holds = true;
         pointer.passivity.reset();
-        come_back(loop, pointer, slot);
+        pointer.limit.come();
+        if (slot.idle) {
+            pointer.limit.begin();
+            come_back(loop, pointer, slot);
+        }
     }
-    slot.idle = false;
+    slot.idle = pointer.goes = false;
+    play_hand(loop, pointer, slot);
+    const auto hand = hands_.leads(index) ? PressLimit::Hand::guessed : PressLimit::Hand::here;
+    if (pointer.limit.binds(hand)) {
+        draw_back(loop, pointer, slot, hand);
+        pointer.passivity.went(slot.hand);
+    }
+}
+
+// The hand is gone: what it pressed is pressed less and less, then it touches nothing.
+void TeleoperatorSide::let_go(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot) {
+    pointer.holds = false;
+    if (slot.idle) {
+        return;
+    }
+    if (!std::exchange(pointer.goes, true)) {
+        const Pose proxy{slot.state.position, Quat(1.0, 0.0, 0.0, 0.0)};
+        pointer.kept = kept(loop, slot.state, proxy);
+    }
+    slot.hand = pointer.hand;
+    slot.hand_velocity = Vec3(0.0);
+    draw_back(loop, pointer, slot, PressLimit::Hand::goes);
+    if (pointer.limit.is_gone()) {
+        slot.idle = true;
+        pointer.goes = false;
+    }
+}
+
+void TeleoperatorSide::play_hand(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot) {
     newest_applied_ = std::max(newest_applied_, pointer.played.sequence);
     slot.hand_velocity = pointer.here.velocity;
     if (settings().traditional && settings().passivity != Passivity::none) {
@@ -122,6 +146,62 @@ void TeleoperatorSide::play(SessionLoop& loop, std::size_t index, SessionLoop::P
     slot.hand = pointer.hand;
 }
 
+PressLimit::In TeleoperatorSide::limited(const SessionLoop& loop, const auto& state,
+                                         PressLimit::Hand hand) const {
+    PressLimit::In in;
+    in.hand = hand;
+    in.force = glm::length(state.force);
+    in.seconds = seconds_;
+    const SessionLoop::Body* const under = state.contact_count > 0 ? loop.body(state.bodies[0]) : nullptr;
+    if (under) {
+        in.stiffness = std::max(1.0, spring_of(loop.scene().body(under->slot).material).steepest());
+    }
+    return in;
+}
+template PressLimit::In TeleoperatorSide::limited(const SessionLoop&, const ProxyState&,
+                                                  PressLimit::Hand) const;
+template PressLimit::In TeleoperatorSide::limited(const SessionLoop&, const ToolState&,
+                                                  PressLimit::Hand) const;
+
+void TeleoperatorSide::draw_back(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot,
+                                 PressLimit::Hand hand) {
+    PressLimit::In in = limited(loop, slot.state, hand);
+    if (!settings().traditional) {
+        in.own_force = glm::length(pointer.here.force);
+    }
+    pointer.limit.step(in);
+    const ProxyMemory memory = slot.proxy->memory();
+    const ProxyTick tick = slot.proxy->move(loop.scene(), slot.hand, seconds_);
+    const bool touches = !slot.proxy->touching().empty();
+    slot.proxy->recall(memory);
+    const double depth = touches ? glm::distance(slot.hand, tick.position) : 0.0;
+    if (depth > pointer.limit.depth()) {
+        slot.hand = tick.position + shortened(slot.hand - tick.position, pointer.limit.depth());
+        slot.hand_velocity = Vec3(0.0);
+    }
+    pointer.limit.applied(hand, depth);
+}
+
+// How deep those are that nothing holds back.
+void TeleoperatorSide::note_pressed(SessionLoop& loop) {
+    for (std::size_t i = 0; i < share_.most(); ++i) {
+        const SessionLoop::ProxySlot& slot = slot_of(loop, i);
+        const ProxyState& state = slot.state;
+        const auto hand = hands_.leads(i) ? PressLimit::Hand::guessed : PressLimit::Hand::here;
+        if (slot.proxy && pointers_[i].holds && !pointers_[i].limit.binds(hand)) {
+            pointers_[i].limit.note(state.contact_count > 0 ? glm::distance(slot.hand, state.position) : 0.0);
+        }
+    }
+    for (std::size_t i = 0; i < share_.most(max_tools); ++i) {
+        const ToolSlot* const slot = tool_of(loop, i);
+        if (slot && tools_[i].holds &&
+            !tools_[i].limit.binds(PlayedHands::leads(*slot) ? PressLimit::Hand::guessed
+                                                             : PressLimit::Hand::here)) {
+            tools_[i].limit.note(slot->state.contact_count > 0 ? slot->stretch(slot->state.pose) : 0.0);
+        }
+    }
+}
+
 // Where the far hand may go so that no energy is made.
 Vec3 TeleoperatorSide::passive_hand(Pointer& pointer, const SessionLoop::ProxySlot& slot) const {
     FarPassivity::In in;
@@ -130,35 +210,48 @@ Vec3 TeleoperatorSide::passive_hand(Pointer& pointer, const SessionLoop::ProxySl
     in.force = pointer.here.force;
     in.own_force = slot.state.force;
     in.seconds = seconds_;
+    in.is_exact = pointer.playing == Playing::exact || pointer.playing == Playing::guessed;
     return pointer.passivity.hand(settings().passivity, settings().passive, in);
 }
 
-// Where a hand that is lost has pressed, so that it can go on pressing.
-void TeleoperatorSide::keep(SessionLoop& loop, Pointer& pointer, const SessionLoop::ProxySlot& slot) const {
-    pointer.kept_on = slot.state.contact_count > 0 ? slot.state.bodies[0] : no_handle;
-    if (const SessionLoop::Body* const under = loop.body(pointer.kept_on)) {
+// Where a hand is lost, so that it can come back from there.
+TeleoperatorSide::KeptPlace TeleoperatorSide::kept(const SessionLoop& loop, const auto& state,
+                                                   const Pose& proxy) const {
+    const SessionHandle on = state.contact_count > 0 ? state.bodies[0] : no_handle;
+    if (const SessionLoop::Body* const under = loop.body(on)) {
         const Pose& pose = loop.scene().body(under->slot).pose;
-        pointer.kept_proxy = to_local(pose, slot.proxy->position());
-        pointer.kept_hand = to_local(pose, pointer.hand);
+        return {true, on, compose(inverse(pose), proxy)};
     }
+    return {true, no_handle, proxy};
 }
+template TeleoperatorSide::KeptPlace TeleoperatorSide::kept(const SessionLoop&, const ToolState&,
+                                                            const Pose&) const;
 
-// A hand that was lost while it pressed is inside of what it pressed when it comes back: it goes on from
-// where its proxy was on that body, wherever that is now.
-void TeleoperatorSide::come_back(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot) const {
-    const SessionLoop::Body* const under = loop.body(std::exchange(pointer.kept_on, no_handle));
+// Where the proxy of a hand that comes back begins: where it was, in the frame of what it pressed, and it is
+// swept to the hand from there, so that no body is between the two. With a model a hand that is free at the
+// operator begins where it is. Empty: so does this one.
+std::optional<Pose> TeleoperatorSide::way_back(const SessionLoop& loop, const KeptPlace& kept,
+                                               bool is_free) const {
+    const SessionLoop::Body* const under = loop.body(kept.on);
+    if (!kept.known || is_free || (kept.on != no_handle && !under)) {
+        return std::nullopt;
+    }
     if (!under) {
-        return;
+        return kept.proxy;
     }
     const Pose& pose = loop.scene().body(under->slot).pose;
-    if (glm::distance(to_parent(pose, pointer.kept_hand), pointer.hand) > same_hand) {
-        return;
+    return compose(pose, kept.proxy);
+}
+
+void TeleoperatorSide::come_back(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot) const {
+    const bool is_free = !settings().traditional && pointer.here.force == Vec3(0.0);
+    if (const std::optional<Pose> from = way_back(loop, pointer.kept, is_free)) {
+        ProxyMemory memory;
+        memory.position = from->position;
+        memory.present = true;
+        memory.hand = pointer.hand;
+        slot.proxy->recall(memory);
     }
-    ProxyMemory memory;
-    memory.position = to_parent(pose, pointer.kept_proxy);
-    memory.present = true;
-    memory.hand = pointer.hand;
-    slot.proxy->recall(memory);
 }
 
 StandInInput TeleoperatorSide::stand_in_input(SessionLoop& loop, const Pointer& pointer,
@@ -199,6 +292,10 @@ void TeleoperatorSide::report(SessionLoop& loop, Nanoseconds now) {
     if (const Ghosts* const others = ghosts_.due(loop, share_, settings().frame, now)) {
         channel_.send(*others);
     }
+    note_pressed(loop);
+    if (SampleAcknowledgements standing; hands_.acknowledges(standing)) {
+        channel_.send(standing);
+    }
     for (std::size_t i = 0; i < share_.most(); ++i) {
         Pointer& pointer = pointers_[i];
         const SessionLoop::ProxySlot& slot = slot_of(loop, i);
@@ -212,10 +309,24 @@ void TeleoperatorSide::report(SessionLoop& loop, Nanoseconds now) {
         pointer.had_hand = slot.hand;
     }
     telling_.describe(channel_, now);
+    channel_.set_own(own_terms(loop));
     statistics_.sample = newest_applied_;
     hands_.tell(statistics_);
     statistics_.discovery = telling_.counts();
     channel_.end_tick(statistics_);
+}
+
+// Of what the operator must agree on with this side.
+Terms TeleoperatorSide::own_terms(SessionLoop& loop) const {
+    Terms terms = channel_.terms_of_settings();
+    terms.bodies = loop.bodies_end();
+    for (std::size_t i = 0; i < share_.most(); ++i) {
+        terms.hands[i] = hand_terms(slot_of(loop, i));
+    }
+    for (std::size_t i = 0; i < share_.most(max_tools); ++i) {
+        terms.hands[first_tool + i] = hand_terms(tool_of(loop, i));
+    }
+    return terms;
 }
 
 void TeleoperatorSide::send_back(SessionLoop& loop, Nanoseconds now) {
@@ -262,6 +373,7 @@ ForceSample TeleoperatorSide::force_of(SessionLoop& loop, std::size_t index, Nan
                               plausible::max_force);
     sample.proxy = to_local(settings().frame, state.position);
     sample.object = state.contact_count > 0 ? static_cast<ObjectId>(state.bodies[0]) : no_object;
+    sample.taken = told_energy(pointers_[index].passivity.taken());
     return sample;
 }
 

@@ -2,9 +2,12 @@
 // and tells what became of the bodies, or what the hand would feel.
 #pragma once
 
+#include <optional>
+
 #include "session/body_telling.hpp"
 #include "session/ghosts.hpp"
 #include "session/played_hands.hpp"
+#include "session/press_limit.hpp"
 #include "session/tool_telling.hpp"
 
 namespace tactus {
@@ -36,15 +39,24 @@ public:
     const ForceLimits& limits() const override { return channel_.settings().limits; }
 
 private:
+    // Where a hand has been lost.
+    struct KeptPlace {
+        bool known = false;
+        SessionHandle on = no_handle;  // what was pressed; no_handle: nothing
+        Pose proxy;                    // in its frame, or in the world
+    };
+
     struct Pointer {
         PointerSample played;
-        PointerSample here;                    // the same in this side's scene
-        bool holds = false;                    // a hand is there
-        Vec3 hand{0.0};                        // where the stand-in has put it (unit: meters)
-        FarPassivity passivity;                // traditional
-        SessionHandle kept_on = no_handle;     // a body that was pressed when the hand was lost
-        Vec3 kept_proxy{0.0}, kept_hand{0.0};  // in its frame (unit: meters)
-        Vec3 had_force{0.0}, had_hand{0.0};    // one tick ago (unit: newtons, meters)
+        PointerSample here;  // the same in this side's scene
+        Playing playing = Playing::waiting;
+        bool holds = false;      // a hand is there
+        bool goes = false;       // it was there, and presses on with less and less
+        Vec3 hand{0.0};          // where the stand-in has put it (unit: meters)
+        FarPassivity passivity;  // traditional
+        PressLimit limit;
+        KeptPlace kept;
+        Vec3 had_force{0.0}, had_hand{0.0};  // one tick ago (unit: newtons, meters)
         Vec3 force_sent{0.0};
         Nanoseconds force_sent_at = 0;
     };
@@ -52,11 +64,12 @@ private:
     // One that holds a tool: the stand-in is always a spring to it.
     struct Tool {
         OperatorSample played;
-        bool holds = false;                 // a hand is there
-        bool idle = true;                   // it touches nothing
-        SessionHandle kept_on = no_handle;  // a body that was pressed when the hand was lost
-        Pose kept_tool;                     // in its frame
-        Vec3 kept_hand{0.0};                // likewise (unit: meters)
+        bool holds = false;  // a hand is there
+        bool goes = false;   // it was there, and presses on with less and less
+        bool idle = true;    // it touches nothing
+        Pose goal;           // of the hand, in this side's scene
+        PressLimit limit;
+        KeptPlace kept;
         SaidWrench said;
     };
 
@@ -71,14 +84,23 @@ private:
     void start_over_if_peer_has(SessionLoop& loop);
     void release_hands(SessionLoop& loop);
     void play(SessionLoop& loop, std::size_t index, SessionLoop::ProxySlot& slot);
+    void play_hand(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot);
+    void draw_back(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot, PressLimit::Hand hand);
+    void draw_back_tools(SessionLoop& loop);
+    void note_pressed(SessionLoop& loop);
+    PressLimit::In limited(const SessionLoop& loop, const auto& state, PressLimit::Hand hand) const;
     Vec3 passive_hand(Pointer& pointer, const SessionLoop::ProxySlot& slot) const;
-    void keep(SessionLoop& loop, Pointer& pointer, const SessionLoop::ProxySlot& slot) const;
+    void let_go(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot);
+    KeptPlace kept(const SessionLoop& loop, const auto& state, const Pose& proxy) const;
+    std::optional<Pose> way_back(const SessionLoop& loop, const KeptPlace& kept, bool is_free) const;
     void come_back(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot) const;
     StandInInput stand_in_input(SessionLoop& loop, const Pointer& pointer,
                                 const SessionLoop::ProxySlot& slot) const;
-    void play(SessionLoop& loop, Tool& tool, ToolSlot& slot);
-    void keep(SessionLoop& loop, Tool& tool, const ToolSlot& slot) const;
+    void play(SessionLoop& loop, std::size_t index, ToolSlot& slot);
+    void let_go(SessionLoop& loop, Tool& tool, ToolSlot& slot) const;
+    void draw_back(Tool& tool, ToolSlot& slot, const ToolState& before, PressLimit::Hand hand) const;
     void come_back(SessionLoop& loop, Tool& tool, ToolSlot& slot) const;
+    Terms own_terms(SessionLoop& loop) const;
     void send_back(SessionLoop& loop, Nanoseconds now);
     void send_wrenches(SessionLoop& loop, Nanoseconds now);
     void tell_tools(SessionLoop& loop, Nanoseconds now);

@@ -1,61 +1,130 @@
 // The far side's tools: each follows the operator's hand within its own contacts.
 #include <algorithm>
+#include <array>
+#include <functional>
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <utility>
 
 #include "session/teleoperator_side.hpp"
 
 namespace tactus {
 
-namespace {
-
-// A hand that comes back no farther from where it was lost, in the frame of what it pressed, presses still
-// (unit: meters).
-constexpr double same_tool_hand = 0.05;
-
-}  // namespace
-
 // Neither the device that the tool stands at here nor its grasp have a say in where it is.
-void TeleoperatorSide::play(SessionLoop& loop, Tool& tool, ToolSlot& slot) {
+void TeleoperatorSide::play(SessionLoop& loop, std::size_t index, ToolSlot& slot) {
+    Tool& tool = tools_[index];
     const bool waits = hands_.play(slot, tool.played) == Playing::waiting;
-    if (waits || !tool.played.connected || !slot.hand.holds) {
-        if (!std::exchange(tool.idle, true)) {
-            keep(loop, tool, slot);
-        }
-        tool.holds = slot.hand.holds = false;
+    const bool is_given = slot.hand.holds;
+    if (waits || !tool.played.connected || !is_given || !channel_.works_together(first_tool + index)) {
+        let_go(loop, tool, slot);
         return;
     }
     const Pose& frame = settings().frame;
-    slot.hand.goal = compose(frame, Pose{tool.played.position, tool.played.rotation});
+    tool.goal = compose(frame, Pose{tool.played.position, tool.played.rotation});
+    slot.hand.goal = tool.goal;
     slot.hand.place = slot.hand.goal.position;
     slot.hand.velocity = direction_to_parent(frame, tool.played.velocity);
     slot.hand.spin = direction_to_parent(frame, tool.played.spin);
     newest_applied_ = std::max(newest_applied_, tool.played.sequence);
-    tool.idle = false;
     if (!std::exchange(tool.holds, true)) {
-        come_back(loop, tool, slot);
+        tool.limit.come();
+        if (tool.idle) {
+            tool.limit.begin();
+            come_back(loop, tool, slot);
+        }
+    }
+    tool.idle = tool.goes = false;
+}
+
+// See let_go() for a pointer.
+void TeleoperatorSide::let_go(SessionLoop& loop, Tool& tool, ToolSlot& slot) const {
+    tool.holds = false;
+    if (!tool.idle && !std::exchange(tool.goes, true)) {
+        tool.kept = kept(loop, slot.state, slot.state.pose);
+    }
+    if (tool.idle || !slot.hand.holds || tool.limit.is_gone()) {
+        tool.idle = true;
+        tool.goes = slot.hand.holds = false;
+        return;
+    }
+    slot.hand.goal = tool.goal;
+    slot.hand.place = slot.hand.goal.position;
+    slot.hand.velocity = slot.hand.spin = Vec3(0.0);
+}
+
+// See draw_back() for a pointer. Tools touch each other, so that all are moved to see where each comes to.
+void TeleoperatorSide::draw_back_tools(SessionLoop& loop) {
+    const auto hand_of = [&](std::size_t i, const ToolSlot& slot) {
+        return tools_[i].goes             ? PressLimit::Hand::goes
+               : PlayedHands::leads(slot) ? PressLimit::Hand::guessed
+                                          : PressLimit::Hand::here;
+    };
+    const auto binds = [&](std::size_t i) {
+        const ToolSlot* const slot = tool_of(loop, i);
+        return slot && slot->hand.holds && tools_[i].limit.binds(hand_of(i, *slot));
+    };
+    std::array<bool, max_tools> bound{};
+    for (std::size_t i = 0; i < share_.most(max_tools); ++i) {
+        bound[i] = binds(i);
+    }
+    if (std::ranges::none_of(bound, std::identity{})) {
+        return;
+    }
+    struct Before {
+        ToolMemory memory;
+        ToolState state;
+        Wrench wrench;
+        Vec3 turned{0.0};
+    };
+    std::array<Before, max_tools> before;
+    for (std::size_t i = 0; i < max_tools; ++i) {
+        if (const ToolSlot* const slot = loop.tool(i)) {
+            before[i] = {slot->proxy.memory(), slot->state, slot->wrench, slot->turned};
+        }
+    }
+    loop.touch_tools();
+    for (std::size_t i = 0; i < share_.most(max_tools); ++i) {
+        if (bound[i]) {
+            ToolSlot& slot = *tool_of(loop, i);
+            draw_back(tools_[i], slot, before[share_.proxy_of(i)].state, hand_of(i, slot));
+        }
+    }
+    for (std::size_t i = 0; i < max_tools; ++i) {
+        if (ToolSlot* const slot = loop.tool(i)) {
+            slot->proxy.recall(before[i].memory, loop.scene());
+            slot->state = before[i].state;
+            slot->wrench = before[i].wrench;
+            slot->turned = before[i].turned;
+        }
     }
 }
 
-// See keep() and come_back() for a pointer.
-void TeleoperatorSide::keep(SessionLoop& loop, Tool& tool, const ToolSlot& slot) const {
-    tool.kept_on = slot.state.contact_count > 0 ? slot.state.bodies[0] : no_handle;
-    if (const SessionLoop::Body* const under = loop.body(tool.kept_on)) {
-        const Pose& pose = loop.scene().body(under->slot).pose;
-        tool.kept_tool = compose(inverse(pose), slot.state.pose);
-        tool.kept_hand = to_local(pose, slot.state.hand.position);
+// `slot` is where its contacts let it go in this tick; `before`: the state of the last.
+void TeleoperatorSide::draw_back(Tool& tool, ToolSlot& slot, const ToolState& before,
+                                 PressLimit::Hand hand) const {
+    PressLimit::In in;
+    in.hand = hand;
+    in.stiffness = slot.use.settings.stiffness;
+    in.force = glm::length(before.force);
+    in.seconds = seconds_;
+    tool.limit.step(in);
+    const Pose& reached = slot.state.pose;
+    const double depth = slot.state.contact_count > 0 ? slot.stretch(reached) : 0.0;
+    if (const double most = tool.limit.depth(); depth > most) {
+        const Pose& goal = slot.hand.goal;
+        const double share = most / depth;
+        slot.hand.goal = {reached.position + (goal.position - reached.position) * share,
+                          glm::slerp(reached.rotation, goal.rotation, share)};
+        slot.hand.place = slot.hand.goal.position;
+        slot.hand.velocity = slot.hand.spin = Vec3(0.0);
     }
+    tool.limit.applied(hand, depth);
 }
 
 void TeleoperatorSide::come_back(SessionLoop& loop, Tool& tool, ToolSlot& slot) const {
-    const SessionLoop::Body* const under = loop.body(std::exchange(tool.kept_on, no_handle));
-    if (!under) {
-        return;
-    }
-    const Pose& pose = loop.scene().body(under->slot).pose;
-    if (glm::distance(to_parent(pose, tool.kept_hand), slot.hand.goal.position) <= same_tool_hand) {
+    if (const std::optional<Pose> from = way_back(loop, tool.kept, false)) {
         ToolMemory memory;
-        memory.pose = compose(pose, tool.kept_tool);
+        memory.pose = *from;
         memory.present = true;
         slot.proxy.recall(memory, loop.scene());
     }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/haptics/fading_force.hpp"
+#include "core/math/bit_hash.hpp"
 #include "core/math/wrench.hpp"
 #include "core/teleop/jitter_buffer.hpp"
 #include "core/tool/tool_group.hpp"
@@ -39,9 +40,12 @@ struct ToolHand {
 
 struct ToolSlot {
     ToolSlot(std::shared_ptr<const ToolShape> shape, std::size_t max_parts, const ToolUse& first_use)
-        : proxy(std::move(shape), max_parts, first_use.settings), use(first_use) {}
+        : proxy(std::move(shape), max_parts, first_use.settings),
+          shape_number(number_of(proxy.shape())),
+          use(first_use) {}
 
     ToolProxy proxy;
+    std::uint64_t shape_number;  // alike on both sides of a link where the spheres are
     // With the tools that were there before it, by handle, and what moves all of them: null where there were
     // none.
     std::array<std::unique_ptr<ToolPair>, max_tools> pairs;
@@ -60,6 +64,15 @@ struct ToolSlot {
     // Where an operator's hand holds it: what came of that. Null: no far side says so.
     std::unique_ptr<JitterBuffer<OperatorSample>> heard;
     std::uint64_t heard_settings = 0;  // see PlayedHands
+
+    static std::uint64_t number_of(const ToolShape& shape) {
+        BitHash hash;
+        for (const ToolSphere& sphere : shape.spheres) {
+            hash.add(sphere.center);
+            hash.add(sphere.radius);
+        }
+        return hash.value();
+    }
 
     // It touches nothing.
     void let_go() {
@@ -85,6 +98,11 @@ struct ToolSlot {
     // L of nearest_motion.hpp (unit: meters).
     double coupling_length() const {
         return std::sqrt(use.settings.turning_stiffness / use.settings.stiffness);
+    }
+    // How far the hand would have the tool from `pose`, turns counted as ways (unit: meters).
+    double stretch(const Pose& pose) const {
+        return glm::distance(hand.goal.position, pose.position) +
+               coupling_length() * angle_between(hand.goal.rotation, pose.rotation);
     }
     // Of a tool that cannot turn, the coupling holds its rotation so firmly that a force at its rim, which
     // moves it there by some way, turns it there by a thousandth of that.

@@ -20,7 +20,18 @@ bool TraditionalTouch::take(const ForceSample& force, SessionHandle touched, Sam
         return false;
     }
     const SampleSequence went_on = force.newest_operator_sample > far.sample ? now : far.went_on;
-    far = {force.newest_operator_sample, went_on, force.force, force.proxy, touched};
+    // Whatever it began with is taken as nothing.
+    const bool first = far.sample == no_sample;
+    // Of two answers to one sample the later one may come first.
+    const auto more = static_cast<std::int32_t>(force.taken - far.told_taken);
+    const bool is_more = !first && more > 0;
+    far = {force.newest_operator_sample,
+           went_on,
+           force.force,
+           force.proxy,
+           touched,
+           first || is_more ? force.taken : far.told_taken,
+           far.taken + (is_more ? energy_quantum * more : 0.0)};
     return true;
 }
 

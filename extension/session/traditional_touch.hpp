@@ -21,6 +21,8 @@ public:
         Vec3 force{0.0};                     // (unit: newtons)
         Vec3 proxy{0.0};                     // in the world (unit: meters)
         SessionHandle touched = no_handle;
+        std::uint32_t told_taken = 0;  // ForceSample::taken
+        double taken = 0.0;            // the same, added up (unit: joules)
     };
 
     struct FarTool {

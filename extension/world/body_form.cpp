@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/mesh/closed_mesh.hpp"
+#include "core/mesh/convex_hull.hpp"
 #include "core/mesh/smooth_normals.hpp"
 #include "physics/solid_properties.hpp"
 #include "world/same_shapes.hpp"
@@ -90,6 +91,26 @@ std::vector<BuiltDraft> build_drafts(const std::vector<MeshDraft>& drafts, const
         }
     }
     return built;
+}
+
+// Physics takes the convex hull of a mesh that moves. An open one, which has no volume, is none either.
+bool is_convex(const BuiltDraft& built) {
+    constexpr double as_good_as = 1.1;  // of volumes: a ball that was sampled has dents between its facets
+    const TriangleMesh& mesh = *std::get<MeshShape>(built.shape.shape).mesh;
+    const auto solid = solid_properties(mesh);
+    const auto hull = solid_properties(convex_hull(mesh.vertices));
+    return solid && hull && hull->volume <= as_good_as * solid->volume;
+}
+
+// `meshes`: of a body that moves, those that collide.
+void say_hulls(const std::vector<MeshDraft>& drafts, const std::vector<BuiltDraft>& meshes,
+               std::vector<std::string>& problems) {
+    if (!std::ranges::all_of(meshes, is_convex)) {
+        problems.push_back(
+            (drafts.empty() ? std::string() : drafts.front().owner) +
+            "the body moves, and so it collides with other bodies as the convex hull of its mesh: "
+            "give it several convex shapes in the mesh's place; a hand feels the mesh itself");
+    }
 }
 
 // Centre of mass and inertia of the touched meshes filled evenly, where the node does not give them. An open
@@ -216,6 +237,11 @@ BuiltBody build_body(const BodyPlan& plan, const ParallelRunner& run) {
     }
     for (const BuiltDraft& mesh : touched.empty() ? colliding : touched) {
         add_part(*touch, mesh.part);
+    }
+    if (plan.values.motion == Motion::Dynamic) {
+        say_hulls(plan.form.meshes, colliding, result.problems);
+        say_hulls(plan.form.touched, description.shapes.empty() ? touched : std::vector<BuiltDraft>(),
+                  result.problems);
     }
     std::vector<PlacedShape>& touched_shapes =
         description.shapes.empty() ? description.shapes : addition.touch_shapes;

@@ -18,15 +18,22 @@ struct MirrorContext {
     BodyDefaults defaults;
     double seconds = 0.0;            // what moved in the scene since the last time took so long for it
     std::uint64_t takes_effect = 0;  // the first tick that has certainly taken what is sent now
+    bool ticks = true;               // false: none is made yet; what moved since the last time is put there
+    bool together = false;           // what came at once waits for what of it is still being built
     std::uint64_t mesh_changes = 0;  // another one when the mesh that a body is touched by may be
     double touch_radius = 0.0;       // the smallest of a fingertip (unit: meters); 0: there is none
 };
 
 class BodyMirror {
 public:
-    explicit BodyMirror(std::unique_ptr<SceneBody> body) : body_(std::move(body)), id_(body_->id()) {}
+    // `arrival`: the same for all that came at once.
+    explicit BodyMirror(std::unique_ptr<SceneBody> body, std::uint64_t arrival = 0)
+        : body_(std::move(body)), id_(body_->id()), arrival_(arrival) {}
 
     std::uint64_t id() const { return id_; }
+    std::uint64_t arrival() const { return arrival_; }
+    // It has never been in the session.
+    bool is_awaited() const { return handle() == no_handle && twin_.is_building(); }
     SessionHandle handle() const { return twin_.handle(); }
     const BodyTwin& twin() const { return twin_; }
     SceneBody* body() const { return body_->is_there() ? body_.get() : nullptr; }  // null: it is gone
@@ -51,15 +58,23 @@ public:
     }
     void take_narrowed(const MirrorContext& context) { twin_.take_narrowed(context.session); }
 
-    // `tick` is the tick of the snapshot that the state is from.
-    enum class Applied {
-        no,         // it is shown already, or made without what was sent last
-        yes,        // until come_to_rest(), the scene tells of its place no more
-        elsewhere,  // no: a script has given the body a place or speed meanwhile: follow() that first
-    };
-    Applied apply(const BodyState& state, std::uint64_t tick);
+    // `tick` is the tick of the snapshot that the state is from. What a script has written of it meanwhile is
+    // sent first. False: it is shown already, or cannot be; true: until come_to_rest(), the scene tells of
+    // its place no more.
+    bool apply(const BodyState& state, std::uint64_t tick, Session& session);
     // It is shown as it is for another frame. Whether a script has given it a place or speed meanwhile.
     bool come_to_rest();
+
+    // The id of the nearest body above it that can be thrown; 0: none.
+    std::uint64_t carrier() const { return body_->is_there() ? body_->carrier() : 0; }
+    // Where the scene has it, while what carries it is moved to where physics has that: nothing of that is a
+    // script's, and a body that moves by itself stays where it is. stay() puts it back.
+    struct Staying {
+        SceneFrame frame;
+        bool stays = false;
+    };
+    Staying hold_on() const;
+    void stay(const Staying& staying);
 
     // Takes the twin out and gives the body back to the engine's own physics.
     void release(Session& session);
@@ -72,8 +87,8 @@ private:
     void hand_over(const MirrorContext& context);
     void say_problems() const;
     bool needs_a_new_twin(const SceneFrame& frame, bool shapes_changed, std::uint64_t mesh_changes);
-    void send_place(const SceneFrame& frame, const MirrorContext& context);
-    void send_speed(const MirrorContext& context);
+    void send(const SceneFrame& frame, Session& session, double seconds);
+    void send_place(const SceneFrame& frame, Session& session, double seconds, bool is_thrown);
     bool has_other_speed(const SceneSpeed& speed) const;
     bool is_elsewhere() const;
     void remember();
@@ -82,12 +97,14 @@ private:
     // What a body that moves needs in every frame stands together, with the beginning of the twin.
     std::unique_ptr<SceneBody> body_;
     std::uint64_t id_;
+    std::uint64_t arrival_;
     SceneFrame frame_;           // of the scene's body, when it was seen or set last
     SceneSpeed speed_;           // likewise
     SceneSpeed shown_;           // that the scene's body was given last; `speed_` is what it kept of it
     bool moves_ = false;         // as shown last
     std::string place_problem_;  // of where it is now; the twin stays where it was
-    ShapeKey key_;
+    ShapeKey key_;               // as it was read
+    Mat3 seen_{1.0};             // the scaling, as it was seen last
     BodyTwin twin_;
     std::uint64_t mesh_changes_ = 0;
     bool tried_ = false;

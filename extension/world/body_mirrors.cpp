@@ -1,6 +1,7 @@
 #include "world/body_mirrors.hpp"
 
 #include <algorithm>
+#include <glm/geometric.hpp>
 #include <unordered_set>
 #include <utility>
 
@@ -13,6 +14,19 @@ constexpr Turns looks{.frames_a_round = 128, .min = 4, .max = 32};
 
 // Speeds are cheaper to ask for, and a throw should not wait.
 constexpr Turns looks_at_speeds{.frames_a_round = 16, .min = 12, .max = 256};
+
+// Whether a body that gives can lie on it: on solids alone, not on another one of its kind.
+bool bears(const BodyForm& form) {
+    return form.soft == nullptr && form.meshes.empty() && form.touched.empty() &&
+           std::ranges::all_of(form.shapes, [](const PlacedShape& placed) {
+               return !std::holds_alternative<ConvexHullShape>(placed.shape) &&
+                      !std::holds_alternative<HeightFieldShape>(placed.shape);
+           });
+}
+
+bool are_near(const BodyTwin& a, const BodyTwin& b) {
+    return glm::distance(a.pose().position, b.pose().position) < a.reach() + b.reach();
+}
 
 // Calls come(id) for what has come, in the order of `there`; what has gone is let go.
 template <class Mirror, class Come>
@@ -43,8 +57,9 @@ void BodyMirrors::match(const std::vector<std::uint64_t>& bodies, const MakeBody
                         Session& session) {
     match_to(joints, joints_, session,
              [&](std::uint64_t id) { joints_.push_back(std::make_unique<JointMirror>(make_joint(id))); });
+    ++arrivals_;
     match_to(bodies, bodies_, session, [&](std::uint64_t id) {
-        bodies_.push_back(std::make_unique<BodyMirror>(make_body(id)));
+        bodies_.push_back(std::make_unique<BodyMirror>(make_body(id), arrivals_));
         news_->changed.push_back(id);
     });
     by_body_.clear();
@@ -60,9 +75,27 @@ void BodyMirrors::match(const std::vector<std::uint64_t>& bodies, const MakeBody
         if (mirror->twin().is_narrowing()) {
             narrowing_.push_back(mirror.get());
         }
+    }
+    find_carried(bodies);
+    for (const auto& mirror : bodies_) {
         take_handle(*mirror, no_handle);
     }
     handles_changed_ = true;
+}
+
+// `bodies`: all there are, parents first.
+void BodyMirrors::find_carried(const std::vector<std::uint64_t>& bodies) {
+    carried_.clear();
+    for (const std::uint64_t id : bodies) {
+        BodyMirror* const mirror = by_body_[id];
+        if (!mirror->can_be_thrown()) {
+            continue;
+        }
+        for (const BodyMirror* above = of(mirror->carrier()); above != nullptr;
+             above = of(above->carrier())) {
+            carried_[above->id()].push_back(mirror);
+        }
+    }
 }
 
 const BodyMirror* BodyMirrors::of(std::uint64_t body) const {
@@ -87,7 +120,8 @@ void BodyMirrors::take_handle(BodyMirror& mirror, SessionHandle before) {
             by_handle_[before] = {};
         }
         if (mirror.handle() != no_handle) {
-            by_handle_[mirror.handle()] = {&mirror, mirror.twin().shown_change(), mirror.moves()};
+            by_handle_[mirror.handle()] = {&mirror, mirror.twin().shown_change(), mirror.moves(),
+                                           carried_.contains(mirror.id())};
         }
     }
     std::erase(building_, &mirror);
@@ -157,10 +191,21 @@ void BodyMirrors::synchronise(const MirrorContext& context) {
     }
     const std::vector<BodyMirror*> built = building_;
     for (BodyMirror* mirror : built) {
+        if (context.together && has_to_wait(*mirror)) {
+            continue;
+        }
         change(*mirror, [&](BodyMirror& one) { one.take_ready(context); });
     }
     narrow(context, built);
     look_at_joints(context);
+}
+
+// What came together is there together: a body does not fall through a floor whose tree takes longer.
+bool BodyMirrors::has_to_wait(const BodyMirror& mirror) const {
+    return mirror.is_awaited() && std::ranges::any_of(building_, [&](const BodyMirror* other) {
+               return other->is_awaited() && other->arrival() == mirror.arrival() &&
+                      !other->twin().is_ready();
+           });
 }
 
 // Another fingertip may be a smaller one.
@@ -187,25 +232,64 @@ void BodyMirrors::narrow(const MirrorContext& context, const std::vector<BodyMir
     });
 }
 
-void BodyMirrors::show(const BodyState& state, std::uint64_t tick) {
+void BodyMirrors::show(const BodyState& state, std::uint64_t tick, Session& session) {
     BodyMirror* const mirror = state.handle < by_handle_.size() ? by_handle_[state.handle].mirror : nullptr;
     if (mirror == nullptr) {
         return;
     }
     Shown& shown = by_handle_[state.handle];
-    bool is_elsewhere = false;
     if (shown.change != state.changed_at) {
-        const BodyMirror::Applied applied = mirror->apply(state, tick);
-        is_elsewhere = applied == BodyMirror::Applied::elsewhere;
-        if (applied == BodyMirror::Applied::yes) {
-            shown = {mirror, state.changed_at, true};
+        std::vector<std::pair<BodyMirror*, BodyMirror::Staying>> below;
+        if (shown.carries) {
+            for (BodyMirror* const carried : carried_[mirror->id()]) {
+                below.emplace_back(carried, carried->hold_on());
+            }
         }
-    } else if (std::exchange(shown.moves, false)) {
-        is_elsewhere = mirror->come_to_rest();
-    }
-    if (is_elsewhere) {
+        if (mirror->apply(state, tick, session)) {
+            shown = {mirror, state.changed_at, true, shown.carries};
+        }
+        for (const auto& [carried, staying] : below) {
+            carried->stay(staying);
+        }
+    } else if (std::exchange(shown.moves, false) && mirror->come_to_rest()) {
         news_->moved.push_back(mirror->id());
     }
+}
+
+std::vector<std::pair<SceneBody*, std::string>> BodyMirrors::fallen_through() const {
+    std::vector<std::pair<SceneBody*, std::string>> all;
+    for (const auto& soft : bodies_) {
+        const BodyForm& form = soft->twin().planned().form;
+        SceneBody* const body = soft->body();
+        const auto model = form.soft != nullptr ? form.soft->built_so_far().model : nullptr;
+        if (model == nullptr || !model->is_free() || body == nullptr) {
+            continue;
+        }
+        for (const auto& other : bodies_) {
+            const bool meets = (soft->twin().values().layers.mask & other->twin().values().layers.layer) != 0;
+            const bool is_apart =
+                other->twin().planned().form.soft != nullptr && !are_near(soft->twin(), other->twin());
+            if (other != soft && meets && !is_apart && other->body() != nullptr &&
+                !bears(other->twin().planned().form)) {
+                all.emplace_back(body,
+                                 "it falls through '" + other->body()->name() +
+                                     "', whose shape bears no body that gives: give that one boxes, spheres, "
+                                     "capsules, cylinders or a plane, or hold this one by 'held'");
+                break;
+            }
+        }
+    }
+    return all;
+}
+
+std::size_t BodyMirrors::in_session() const {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(bodies_, [](const auto& mirror) { return mirror->handle() != no_handle; }));
+}
+
+std::size_t BodyMirrors::without_place() const {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(bodies_, [](const auto& mirror) { return mirror->twin().found_no_place(); }));
 }
 
 SceneFacts BodyMirrors::facts() const {
@@ -231,11 +315,22 @@ std::vector<QueriedBody> BodyMirrors::touchable(std::uint32_t mask) const {
 
 std::vector<std::string> BodyMirrors::problems() const {
     std::vector<std::string> all;
+    if (const std::size_t left_out = without_place(); left_out > 0) {
+        all.push_back(std::to_string(left_out) + " of " + std::to_string(bodies_.size()) +
+                      " bodies are left out, because the world takes " + std::to_string(by_handle_.size()) +
+                      ": raise its 'max_bodies'");
+    }
     for (const auto& mirror : bodies_) {
         const SceneBody* body = mirror->body();
+        if (mirror->twin().found_no_place()) {
+            continue;
+        }
         for (const std::string& problem : mirror->problems()) {
             all.push_back((body != nullptr ? body->name() : "a body") + ": " + problem);
         }
+    }
+    for (const auto& [body, problem] : fallen_through()) {
+        all.push_back(body->name() + ": " + problem);
     }
     for (const auto& mirror : joints_) {
         if (const SceneJoint* joint = mirror->joint(); joint != nullptr && !mirror->problem().empty()) {

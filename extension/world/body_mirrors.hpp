@@ -48,7 +48,7 @@ public:
     // Brings the session up to date.
     void synchronise(const MirrorContext& context);
     // `tick` is the tick of the snapshot that the state is from. May call a script.
-    void show(const BodyState& state, std::uint64_t tick);
+    void show(const BodyState& state, std::uint64_t tick, Session& session);
     // Gives all back to the engine's own physics.
     void release(Session& session);
 
@@ -60,13 +60,21 @@ public:
     SceneFacts facts() const;
     // What can be touched, of these layers; `index` is that in bodies().
     std::vector<QueriedBody> touchable(std::uint32_t mask) const;
+    // Those that are being built, and those that came with one that is new.
     std::size_t building() const { return building_.size(); }
+    std::size_t in_session() const;     // that can be touched
+    std::size_t without_place() const;  // that a world of more bodies would have taken
+    // Of a body that gives, and is free to fall: what it would fall through, since its shape bears none;
+    // empty where there is nothing like that.
+    std::vector<std::pair<SceneBody*, std::string>> fallen_through() const;
     std::vector<std::string> problems() const;  // each names its node
 
 private:
     void look_at_bodies(const MirrorContext& context);
     void look_at_joints(const MirrorContext& context);
     void narrow(const MirrorContext& context, const std::vector<BodyMirror*>& built);
+    void find_carried(const std::vector<std::uint64_t>& bodies);
+    bool has_to_wait(const BodyMirror& mirror) const;
     template <class Change>
     void change(BodyMirror& mirror, const Change& change);
     void take_handle(BodyMirror& mirror, SessionHandle before);
@@ -82,9 +90,14 @@ private:
         BodyMirror* mirror = nullptr;
         std::uint64_t change = 0;
         bool moves = false;
+        bool carries = false;  // see carried_
     };
     std::vector<Shown> by_handle_;
-    std::vector<BodyMirror*> thrown_;    // of them all, those that can be
+    std::vector<BodyMirror*> thrown_;  // of them all, those that can be
+    // By the body that takes them along in the scene: those that can be thrown and stand below it, parents
+    // first.
+    std::unordered_map<std::uint64_t, std::vector<BodyMirror*>> carried_;
+    std::uint64_t arrivals_ = 0;
     std::vector<BodyMirror*> building_;  // in the order in which they were planned
     std::vector<BodyMirror*> narrowing_;
     NarrowedTrees narrowed_trees_;

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/math/body_motion.hpp"
 #include "world/same_shapes.hpp"
 
 namespace tactus {
@@ -10,6 +11,10 @@ namespace {
 
 // Building a tree over so many takes about a millisecond.
 constexpr std::size_t max_triangles_at_once = 2000;
+
+BodyMotion motion_of(const BodyPlace& place) {
+    return {place.pose, place.linear_velocity, place.angular_velocity};
+}
 
 // Unlike any that another body has had: handles are given again.
 std::uint64_t next_revision() {
@@ -71,11 +76,14 @@ bool BodyTwin::take_ready(Session& session, std::uint64_t takes_effect) {
     }
     AddResult added = session.add_body(std::move(job->built.body));
     handle_ = added.handle;
+    found_no_place_ = added.is_full;
     if (handle_ == no_handle) {
         problems_.push_back(std::move(added.error));
         return false;
     }
     shown_from_ = takes_effect;
+    pending_.clear();
+    asked_ = 0;
     values_ = job->plan.values;
     place_ = job->plan.place;
     addition_ = std::move(job->built.addition);
@@ -92,12 +100,11 @@ bool BodyTwin::take_ready(Session& session, std::uint64_t takes_effect) {
 
 void BodyTwin::stand_at(Session& session, const BodyPlace& now) {
     if (!same_pose(now.pose, place_.pose)) {
-        session.teleport_body(handle_, now.pose);
+        write_place(session, now.pose, Session::all_of_pose, false);
     }
     if (now.linear_velocity != place_.linear_velocity || now.angular_velocity != place_.angular_velocity) {
-        session.set_body_velocity(handle_, now.linear_velocity, now.angular_velocity);
+        write_velocity(session, now.linear_velocity, now.angular_velocity, Session::all_of_velocity);
     }
-    place_ = now;
 }
 
 // Where only corners of its meshes have moved, the twin stays and takes the new form: whoever touches it is
@@ -157,31 +164,65 @@ void BodyTwin::set_values(Session& session, const BodyValues& values) {
     }
 }
 
-void BodyTwin::set_pose(Session& session, const Pose& pose, double seconds, std::uint64_t takes_effect) {
+void BodyTwin::move_to(Session& session, const Pose& pose, double seconds) {
     place_.pose = pose;
-    if (values_.motion == Motion::Dynamic) {
-        session.teleport_body(handle_, pose);
-        shown_from_ = takes_effect;
-    } else {
+    if (seconds > 0.0) {
         session.move_body(handle_, pose, seconds);
+    } else if (session.teleport_body(handle_, pose)) {
+        ++asked_;
     }
 }
 
-void BodyTwin::set_velocity(Session& session, const Vec3& linear, const Vec3& angular,
-                            std::uint64_t takes_effect) {
-    place_.linear_velocity = linear;
-    place_.angular_velocity = angular;
-    session.set_body_velocity(handle_, linear, angular);
-    shown_from_ = takes_effect;
+void BodyTwin::pend(Pending::What what, const BodyPlace& place, std::uint32_t axes) {
+    pending_.push_back({++asked_, what, place, axes});
 }
 
-bool BodyTwin::takes(const BodyState& state, std::uint64_t tick) {
-    if (state.changed_at == shown_change_ || values_.motion != Motion::Dynamic || tick < shown_from_) {
-        return false;
+void BodyTwin::write_place(Session& session, const Pose& pose, std::uint32_t axes, bool is_relative) {
+    const Pose now = written(place_.pose, pose, axes);
+    const Vec3 by = now.position - place_.pose.position;
+    const bool turns = (axes >> 3 & 1u) != 0;
+    const Quat turn = turns ? glm::normalize(now.rotation * glm::conjugate(place_.pose.rotation))
+                            : Quat(1.0, 0.0, 0.0, 0.0);
+    if (is_relative && session.shift_body(handle_, by, turn)) {
+        pend(Pending::What::shift, {.pose = {by, turn}}, axes);
+        place_.pose = now;
+    } else if (!is_relative && session.teleport_body(handle_, pose, axes)) {
+        pend(Pending::What::place, {.pose = pose}, axes);
+        place_.pose = now;
     }
+}
+
+void BodyTwin::write_velocity(Session& session, const Vec3& linear, const Vec3& angular, std::uint32_t axes) {
+    session.set_body_velocity(handle_, linear, angular, axes);
+    pend(Pending::What::velocity, {{}, linear, angular}, axes);
+    const BodyMotion now = with_velocity(motion_of(place_), {{}, linear, angular}, axes);
+    place_ = {now.pose, now.linear_velocity, now.angular_velocity};
+}
+
+bool BodyTwin::has_news(const BodyState& state, std::uint64_t tick) const {
+    return state.changed_at != shown_change_ && values_.motion == Motion::Dynamic && tick >= shown_from_;
+}
+
+const BodyPlace& BodyTwin::take(const BodyState& state) {
     shown_change_ = state.changed_at;
-    place_ = {state.pose, state.linear_velocity, state.angular_velocity};
-    return true;
+    std::erase_if(pending_, [&](const Pending& one) { return one.number <= state.asked; });
+    BodyMotion now{state.pose, state.linear_velocity, state.angular_velocity};
+    for (const Pending& one : pending_) {
+        const BodyPlace& place = one.place;
+        switch (one.what) {
+            case Pending::What::place:
+                now.pose = written(now.pose, place.pose, one.axes);
+                break;
+            case Pending::What::shift:
+                now.pose = shifted(now.pose, place.pose.position, place.pose.rotation);
+                break;
+            case Pending::What::velocity:
+                now = with_velocity(now, motion_of(place), one.axes);
+                break;
+        }
+    }
+    place_ = {now.pose, now.linear_velocity, now.angular_velocity};
+    return place_;
 }
 
 BodyAddition BodyTwin::addition() const {

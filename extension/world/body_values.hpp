@@ -19,6 +19,7 @@ struct BodyValues {
     double angular_damping = 0.0;  // likewise
     Vec3 constant_force{0.0};      // at the centre of mass, in the world (unit: newtons)
     Vec3 constant_torque{0.0};     // in the world (unit: newton meters)
+    bool is_paused = false;        // it stands still, and goes on as it moved before
 };
 
 // Into what a body is made from.

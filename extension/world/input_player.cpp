@@ -22,12 +22,13 @@ std::unique_ptr<InputPlayer> InputPlayer::open(const std::string& inputs, const 
             return nullptr;
         }
     }
-    return std::unique_ptr<InputPlayer>(new InputPlayer(std::move(file), std::move(rows)));
+    return std::unique_ptr<InputPlayer>(new InputPlayer(std::move(file), std::move(rows), csv));
 }
 
-InputPlayer::InputPlayer(OpenFile inputs, OpenFile csv)
+InputPlayer::InputPlayer(OpenFile inputs, OpenFile csv, const std::string& csv_path)
     : inputs_(std::move(inputs)),
       csv_(std::move(csv)),
+      csv_path_(csv_path),
       text_(record_csv_header()),
       replay_(inputs_.get(),
               [this](const SessionRecord& row, Nanoseconds epoch) { append_record_csv(text_, row, epoch); }) {
@@ -40,9 +41,10 @@ bool InputPlayer::play(std::uint64_t ticks) {
 }
 
 void InputPlayer::write_rows() {
-    if (csv_ != nullptr) {
-        std::fwrite(text_.data(), 1, text_.size(), csv_.get());
-        std::fflush(csv_.get());
+    if (csv_ != nullptr && (std::fwrite(text_.data(), 1, text_.size(), csv_.get()) != text_.size() ||
+                            std::fflush(csv_.get()) != 0)) {
+        rows_problem_ = "'" + csv_path_ + "' could not be written to its end: is the disk full?";
+        csv_.reset();
     }
     text_.clear();
 }

@@ -21,15 +21,17 @@ public:
     // False where there are no more ticks. Then the rows are written to their end.
     bool play(std::uint64_t ticks);
     const InputReplay::Report& report() const { return replay_.report(); }
+    // Why the rows are not all in their file; empty where they are.
+    const std::string& rows_problem() const { return rows_problem_; }
     Nanoseconds now() const { return replay_.now(); }
     Session* session() { return replay_.session(); }
 
 private:
-    InputPlayer(OpenFile inputs, OpenFile csv);
+    InputPlayer(OpenFile inputs, OpenFile csv, const std::string& csv_path);
     void write_rows();
 
     OpenFile inputs_, csv_;
-    std::string text_;
+    std::string csv_path_, text_, rows_problem_;
     InputReplay replay_;
 };
 

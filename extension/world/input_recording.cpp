@@ -17,7 +17,7 @@ std::unique_ptr<InputRecording> InputRecording::open(const std::string& path, co
     ValueWriter writer(sink);
     pass(writer, settings);
     if (!write_input_head(recording->file_.get())) {
-        recording->file_.reset();
+        recording->end_short();
     }
     recording->write(InputPiece::settings, sink.bytes());
     return recording;
@@ -26,10 +26,14 @@ std::unique_ptr<InputRecording> InputRecording::open(const std::string& path, co
 // What could not be written to its end is played up to there.
 void InputRecording::write(InputPiece kind, std::vector<std::byte>& content) {
     if (file_ != nullptr && !content.empty() && !write_input_piece(file_.get(), kind, content)) {
-        say_("'" + path_ + "' could not be written to its end: is the disk full?");
-        file_.reset();
+        end_short();
     }
     content.clear();
+}
+
+void InputRecording::end_short() {
+    file_.reset();
+    say_("'" + path_ + "' could not be written to its end: is the disk full?");
 }
 
 void InputRecording::drain(Nanoseconds epoch) {
@@ -51,7 +55,10 @@ void InputRecording::close() {
     ValueWriter writer(sink);
     pass(writer, lost);
     write(InputPiece::end, sink.bytes());
-    file_.reset();
+    // What the system still holds is written now, or never.
+    if (file_ != nullptr && std::fclose(file_.release()) != 0) {
+        end_short();
+    }
 }
 
 }  // namespace tactus

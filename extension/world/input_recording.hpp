@@ -39,6 +39,7 @@ private:
     InputRecording(std::string path, OpenFile file, const Say& say)
         : path_(std::move(path)), file_(std::move(file)), say_(say) {}
     void write(InputPiece kind, std::vector<std::byte>& content);
+    void end_short();
 
     std::string path_;
     OpenFile file_;  // null: closed, or the disk is full

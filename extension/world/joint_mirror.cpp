@@ -36,7 +36,9 @@ void JointMirror::synchronise(Session& session, const FindMirror& mirror_of) {
         problem_ = joint_->problem();
     } else {
         twin_.synchronise(session, reading.joint, *first, *second);
-        problem_ = twin_.problem().empty() ? reading.problem : twin_.problem();
+        problem_ = !twin_.problem().empty()   ? twin_.problem()
+                   : !reading.problem.empty() ? reading.problem
+                                              : joint_->problem();
     }
     joint_->say(problem_);
 }

@@ -11,8 +11,10 @@ namespace {
 
 constexpr std::uint32_t grain_side = 64;  // grains along a side of the texture
 
-constexpr MaterialPreset presets[] = {MaterialPreset::rubber, MaterialPreset::ice, MaterialPreset::sandpaper,
-                                      MaterialPreset::steel, MaterialPreset::sponge};
+constexpr MaterialPreset presets[] = {
+    MaterialPreset::rubber, MaterialPreset::ice,    MaterialPreset::sandpaper,
+    MaterialPreset::steel,  MaterialPreset::sponge, MaterialPreset::wood,
+    MaterialPreset::glass,  MaterialPreset::skin,   MaterialPreset::foam};
 
 // Godot keeps friction and bounce in single precision.
 bool same_values(const MaterialValues& a, const MaterialValues& b) {
@@ -61,6 +63,38 @@ MaterialValues values_of(MaterialPreset preset) {
             touch.stiffening_depth = 0.03;
             touch.viscosity = 1.0;
             values.friction = 0.7;
+            break;
+        case MaterialPreset::wood:
+            touch = {.stiffness = 2200.0, .damping = 1.2, .static_friction = 0.5, .dynamic_friction = 0.35};
+            touch.texture_size = 0.04;
+            touch.texture_depth = 0.00004;
+            touch.impact_strength = 5.0;
+            touch.impact_frequency = 100.0;
+            touch.impact_decay = 0.01;
+            values.friction = 0.5;
+            values.bounce = 0.2;
+            break;
+        case MaterialPreset::glass:
+            touch = {.stiffness = 2800.0, .damping = 1.4, .static_friction = 0.2, .dynamic_friction = 0.12};
+            touch.stribeck_speed = 0.02;
+            touch.impact_strength = 6.0;
+            touch.impact_frequency = 400.0;
+            touch.impact_decay = 0.02;
+            values.friction = 0.2;
+            values.bounce = 0.3;
+            break;
+        case MaterialPreset::skin:
+            touch = {.stiffness = 300.0, .damping = 2.0, .static_friction = 0.8, .dynamic_friction = 0.6};
+            touch.stiffening = 3.0;
+            touch.stiffening_depth = 0.01;
+            touch.viscosity = 0.5;
+            values.friction = 0.8;
+            break;
+        case MaterialPreset::foam:
+            touch = {.stiffness = 80.0, .damping = 1.0, .static_friction = 0.6, .dynamic_friction = 0.45};
+            touch.stiffening = 8.0;
+            touch.stiffening_depth = 0.04;
+            values.friction = 0.6;
             break;
         case MaterialPreset::custom:
             break;

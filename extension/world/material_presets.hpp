@@ -11,7 +11,18 @@
 
 namespace tactus {
 
-enum class MaterialPreset : std::uint8_t { custom, rubber, ice, sandpaper, steel, sponge };
+enum class MaterialPreset : std::uint8_t {
+    custom,
+    rubber,
+    ice,
+    sandpaper,
+    steel,
+    sponge,
+    wood,
+    glass,
+    skin,
+    foam
+};
 
 struct MaterialValues {
     TouchMaterial touch;

@@ -33,9 +33,11 @@ void MeshCollector::add(std::span<const PackedPlace> corners, std::span<const st
     }
 }
 
-TriangleMesh MeshCollector::take() {
-    merge_places(mesh_);
-    return std::move(mesh_);
+TriangleSource::Read MeshCollector::take() {
+    std::vector<std::uint32_t> merged = merge_places(mesh_);
+    TriangleSource::Read read(std::move(mesh_));
+    read.merged = std::move(merged);
+    return read;
 }
 
 bool is_whole(const SurfaceBytes& bytes) {
@@ -74,6 +76,24 @@ std::vector<std::int32_t> read_indices(const SurfaceBytes& bytes) {
         }
     }
     return indices;
+}
+
+std::vector<std::int32_t> triangles_of_strip(std::span<const std::int32_t> indices,
+                                             std::size_t corner_count) {
+    const std::size_t count = indices.empty() ? corner_count : indices.size();
+    const auto corner = [&](std::size_t i) {
+        return indices.empty() ? static_cast<std::int32_t>(i) : indices[i];
+    };
+    std::vector<std::int32_t> list;
+    for (std::size_t i = 0; i + 2 < count; ++i) {
+        const std::int32_t a = corner(i);
+        const std::int32_t b = corner(i + 1 + i % 2);
+        const std::int32_t c = corner(i + 2 - i % 2);
+        if (a != b && b != c && c != a) {
+            list.insert(list.end(), {a, b, c});
+        }
+    }
+    return list;
 }
 
 std::shared_ptr<TriangleSource> source_of(std::vector<LateSurface> surfaces) {

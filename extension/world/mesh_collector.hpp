@@ -22,7 +22,7 @@ class MeshCollector {
 public:
     // Three corners a triangle; without indices, each corner in turn.
     void add(std::span<const PackedPlace> corners, std::span<const std::int32_t> indices);
-    TriangleMesh take();
+    TriangleSource::Read take();
 
 private:
     TriangleMesh mesh_;
@@ -50,5 +50,9 @@ struct SurfaceBytes {
 bool is_whole(const SurfaceBytes& bytes);
 std::vector<PackedPlace> read_corners(const SurfaceBytes& bytes);
 std::vector<std::int32_t> read_indices(const SurfaceBytes& bytes);
+
+// The triangles of a strip, three indices each: every second one is turned round, and those that name a
+// corner twice, by which strips are joined, are left out. Without indices, each of so many corners in turn.
+std::vector<std::int32_t> triangles_of_strip(std::span<const std::int32_t> indices, std::size_t corner_count);
 
 }  // namespace tactus

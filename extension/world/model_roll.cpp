@@ -11,7 +11,7 @@ void ModelRoll::note(const ObjectDescription& description) {
 }
 
 std::vector<ModelNews> ModelRoll::update(const std::vector<ModelObject>& objects, const Show& show,
-                                         const Hide& hide) {
+                                         const Hide& hide, const IsShown& is_shown) {
     std::vector<ModelNews> news;
     std::unordered_map<ObjectId, Entry> before = std::move(entries_);
     entries_.clear();
@@ -21,7 +21,8 @@ std::vector<ModelNews> ModelRoll::update(const std::vector<ModelObject>& objects
         const auto was = before.find(object.object);
         const bool is_known = was != before.end();
         if (is_known && was->second.object.name == object.name && was->second.object.body == object.body &&
-            was->second.object.problem == object.problem) {
+            was->second.object.problem == object.problem &&
+            (object.body == no_handle || is_shown(object.name, was->second.shown))) {
             entry.shown = was->second.shown;
         } else {
             if (is_known) {

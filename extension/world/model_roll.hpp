@@ -33,16 +33,22 @@ public:
         bool is_picture = false;       // made for it; else it is a body of the scene
         Mat3 scaling{1.0};             // that the node keeps
         std::uint64_t changed_at = 0;  // BodyState::changed_at that is shown
+        // Nodes of rigid bodies below it, parents first: physics moves each by itself.
+        std::vector<std::uint64_t> carried = {};
     };
     using Show = std::function<Shown(const std::string& name, const Form& form)>;
     using Hide = std::function<void(const Shown& shown)>;
+    // Whether the object of that name is still shown as it would be shown now: its node may be gone, or a
+    // body of the scene may have come that shows it better than a picture.
+    using IsShown = std::function<bool(const std::string& name, const Shown& shown)>;
 
     // Described just now, before it is built.
     void note(const ObjectDescription& description);
 
-    // Has what is new shown and what is gone hidden; what is neither stays as it is shown.
-    std::vector<ModelNews> update(const std::vector<ModelObject>& objects, const Show& show,
-                                  const Hide& hide);
+    // Has what is new shown and what is gone hidden; what is neither stays as it is shown. What is shown
+    // anew is discovered once more, with its new node.
+    std::vector<ModelNews> update(const std::vector<ModelObject>& objects, const Show& show, const Hide& hide,
+                                  const IsShown& is_shown);
     void hide_all(const Hide& hide);
 
     std::size_t size() const { return entries_.size(); }

@@ -1,5 +1,7 @@
 #include "world/recording.hpp"
 
+#include <filesystem>
+#include <set>
 #include <utility>
 
 #include "session/record_csv.hpp"
@@ -13,6 +15,21 @@ constexpr std::size_t ring_capacity = 8192;
 
 std::string cut_short(const std::string& path) {
     return "'" + path + "' could not be written to its end: is the disk full?";
+}
+
+// The files of all recordings that are open: two would write over each other.
+std::set<std::string>& paths_in_use() {
+    static std::set<std::string> paths;
+    return paths;
+}
+
+// The same for the same file, however its path is written.
+std::string name_of_file(const std::string& path) {
+    std::error_code ignored;
+    const std::u8string given(path.begin(), path.end());
+    const std::filesystem::path whole = std::filesystem::weakly_canonical(given, ignored);
+    const std::u8string name = ignored ? given : whole.u8string();
+    return {name.begin(), name.end()};
 }
 
 }  // namespace
@@ -30,16 +47,37 @@ Recording::Recording(const RecordingFiles& files, const Say& say)
       trace_(create(files.trace)),
       text_(record_csv_header()) {}
 
-OpenFile Recording::create(const std::string& path) const {
+OpenFile Recording::create(const std::string& path) {
     if (path.empty()) {
         return nullptr;
     }
     make_folder_of(path);
+    if (!paths_in_use().insert(name_of_file(path)).second) {
+        complain("'" + path + "' is being written by another recording: choose another path");
+        return nullptr;
+    }
     OpenFile file(open_file(path, "wb"));
     if (file == nullptr) {
-        say_("'" + path + "' cannot be written: choose a folder that exists and may be written to");
+        paths_in_use().erase(name_of_file(path));
+        complain("'" + path + "' cannot be written: choose a folder that exists and may be written to");
     }
     return file;
+}
+
+// What the system still holds is written now, or never.
+void Recording::close_file(OpenFile& file, const std::string& path) {
+    if (file == nullptr) {
+        return;
+    }
+    if (std::fclose(file.release()) != 0) {
+        complain(cut_short(path));
+    }
+    paths_in_use().erase(name_of_file(path));
+}
+
+void Recording::complain(const std::string& what) {
+    problem_ = problem_.empty() ? what : problem_;
+    say_(what);
 }
 
 void Recording::close() {
@@ -48,10 +86,10 @@ void Recording::close() {
     }
     const Nanoseconds origin = ticks_.empty() ? 0 : ticks_.front().start;
     if (trace_ != nullptr && !write_trace_events(trace_.get(), ticks_, origin, "haptic loop")) {
-        say_(cut_short(files_.trace));
+        complain(cut_short(files_.trace));
     }
-    csv_.reset();
-    trace_.reset();
+    close_file(csv_, files_.csv);
+    close_file(trace_, files_.trace);
 }
 
 void Recording::drain(Nanoseconds epoch) {
@@ -60,13 +98,13 @@ void Recording::drain(Nanoseconds epoch) {
         ++rows_;
     });
     if (csv_ != nullptr && std::fwrite(text_.data(), 1, text_.size(), csv_.get()) != text_.size()) {
-        say_(cut_short(files_.csv));
-        csv_.reset();
+        complain(cut_short(files_.csv));
+        close_file(csv_, files_.csv);
     }
     text_.clear();
     if (const std::uint64_t lost = ring_->take_lost(); lost > 0) {
         lost_ += lost;
-        say_(std::to_string(lost) + " ticks were not recorded: the program stood still for too long");
+        complain(std::to_string(lost) + " ticks were not recorded: the program stood still for too long");
     }
 }
 

@@ -47,12 +47,17 @@ public:
     void drain(Nanoseconds epoch);
     void drain(TickTrace& trace);
 
+    // Why a file is not whole; empty where all that was to be written is there.
+    const std::string& problem() const { return problem_; }
+
     std::uint64_t rows() const { return rows_; }
     std::uint64_t lost() const { return lost_; }
 
 private:
     Recording(const RecordingFiles& files, const Say& say);
-    OpenFile create(const std::string& path) const;
+    OpenFile create(const std::string& path);
+    void close_file(OpenFile& file, const std::string& path);
+    void complain(const std::string& what);
 
     RecordingFiles files_;
     Say say_;
@@ -61,6 +66,7 @@ private:
     OpenFile trace_;
     std::string text_;
     std::vector<TickRecord> ticks_;
+    std::string problem_;
     bool is_open_ = true;
     std::uint64_t rows_ = 0;
     std::uint64_t lost_ = 0;

@@ -18,8 +18,8 @@ struct SceneSpeed {
     bool operator==(const SceneSpeed&) const = default;
 };
 
-// What touch and collision take their form from. Two equal ones need no new reading, unless a shape said that
-// it changed.
+// What touch and collision take their form from. Where neither the shapes are others nor the scaling has done
+// more than drift (has_only_drifted()), no new reading is needed, unless a shape said that it changed.
 struct ShapeKey {
     struct Entry {
         std::uint64_t shape = 0;  // who it is
@@ -27,10 +27,8 @@ struct ShapeKey {
         bool operator==(const Entry&) const = default;
     };
     std::vector<Entry> shapes;
-    Mat3 scaling{1.0};  // of the body
-    bool operator==(const ShapeKey& other) const {
-        return shapes == other.shapes && same_scaling(scaling, other.scaling);
-    }
+    Mat3 scaling{1.0};    // of the body
+    bool is_out = false;  // it is in the scene and not in its physics for now
 };
 
 // What a world adds to each of its bodies.
@@ -54,11 +52,14 @@ public:
     virtual std::string name() const = 0;    // for messages
     virtual std::string path() const = 0;    // below its world: the far side's name for it
     virtual bool can_be_thrown() const = 0;  // it is moved by physics, or will be; always or never
-    virtual SceneFrame frame() const = 0;    // in the world
-    virtual SceneSpeed speed() const = 0;    // zero of what cannot be thrown
-    virtual BodyMakings makings() const = 0;
+    // The id of the nearest body above it that can be thrown, and takes it along in the scene; 0: none.
+    virtual std::uint64_t carrier() const = 0;
+    virtual SceneFrame frame() const = 0;  // in the world
+    virtual SceneSpeed speed() const = 0;  // zero of what cannot be thrown
+    // `scaling`: the one that the body counts as having, a drift left out.
+    virtual BodyMakings makings(const Mat3& scaling) const = 0;
     virtual ShapeKey shape_key() const = 0;
-    virtual BodyForm form() const = 0;
+    virtual BodyForm form(const Mat3& scaling) const = 0;
     virtual BodyValues values(const BodyDefaults& defaults) = 0;
 
     // The engine's own physics leaves it where it is.
@@ -73,6 +74,8 @@ public:
     virtual SceneSpeed set_speed(const SceneSpeed& speed) = 0;
     // Puts it there, and answers where it stands by that. May call a script, which may free it.
     virtual SceneFrame stand_at(const Pose& pose, const Mat3& scaling) = 0;
+    // The same, of a frame that it has had: what carried it has moved.
+    virtual SceneFrame put_back(const SceneFrame& frame) = 0;
 
     virtual void say(const std::string& problem) const = 0;  // once for each; an empty one says nothing
 };

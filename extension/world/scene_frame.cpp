@@ -23,11 +23,25 @@ constexpr double no_volume = 1e-36;
 // Of an entry of a scaling, relative where it is large: many times what single precision rounds.
 constexpr double rounding = 1e-5;
 
+// Relative, of what a body was made with. A hundred thousand small rotations come to about so much; of a body
+// of a meter it is a millimeter.
+constexpr double most_drift = 1e-3;
+
 constexpr const char* not_finite = "its transform is not made of finite numbers: reset it in the inspector";
 
 bool is_finite(const SceneFrame& frame) {
     const auto finite = [](const Vec3& v) { return std::isfinite(v.x + v.y + v.z); };
     return finite(frame.axes[0]) && finite(frame.axes[1]) && finite(frame.axes[2]) && finite(frame.origin);
+}
+
+bool is_within(double share, const Mat3& a, const Mat3& b) {
+    for (int column = 0; column < 3; ++column) {
+        const double size = std::max(1.0, glm::length(a[column]));
+        if (!(glm::distance(a[column], b[column]) <= share * size)) {
+            return false;
+        }
+    }
+    return true;
 }
 
 Vec3 unit(const Vec3& v) {
@@ -56,13 +70,11 @@ Mat3 scaling_of(const SceneFrame& frame) {
 }
 
 bool same_scaling(const Mat3& a, const Mat3& b) {
-    for (int column = 0; column < 3; ++column) {
-        const double size = std::max(1.0, glm::length(a[column]));
-        if (!(glm::distance(a[column], b[column]) <= rounding * size)) {
-            return false;
-        }
-    }
-    return true;
+    return is_within(rounding, a, b);
+}
+
+bool has_only_drifted(const Mat3& made, const Mat3& before, const Mat3& now) {
+    return is_within(rounding, before, now) && is_within(most_drift, made, now);
 }
 
 double mean_scale(const SceneFrame& frame) {

@@ -28,6 +28,11 @@ Mat3 scaling_of(const SceneFrame& frame);
 // But for what single precision rounds: the scaling of a frame that turns is another one each time.
 bool same_scaling(const Mat3& a, const Mat3& b);
 
+// Whether a frame that was made with `made` and had `before` when it was seen last has only drifted to `now`.
+// A frame that turns by small rotations one after another rounds each of them, and its scaling wanders off
+// without bound: a step that rounding explains is no scaling, up to a thousandth of what it was made with.
+bool has_only_drifted(const Mat3& made, const Mat3& before, const Mat3& now);
+
 // By how much lengths are larger in it, on the average of its axes; whether that is the same along each, but
 // for a thousandth.
 double mean_scale(const SceneFrame& frame);

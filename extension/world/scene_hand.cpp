@@ -143,6 +143,9 @@ std::string state_of_fingertip(const ProxyState& state) {
     if ((state.status & touch_unheld) != 0) {
         return unheld;
     }
+    if ((state.status & far_hand_away) != 0) {
+        return "no hand of the operator is here";
+    }
     if ((state.status & proxy_absent) != 0) {
         return "the hand began inside a body: move it out once";
     }
@@ -158,6 +161,9 @@ std::string state_of_tool(const ToolState& state) {
     }
     if ((state.status & touch_unheld) != 0) {
         return unheld;
+    }
+    if ((state.status & far_hand_away) != 0) {
+        return "no hand of the operator is here";
     }
     if ((state.status & tool_absent) != 0) {
         return "the tool does not fit in where the hand holds it: move it to where it touches nothing";

@@ -25,8 +25,9 @@ void tell(const BodyMirrors& scene, const std::vector<std::unique_ptr<WorldLink>
     const auto describe = [&](std::size_t i) {
         return WorldLink::Description{mirrors[i]->body()->path(), mirrors[i]->twin().addition()};
     };
+    const auto name = [&](std::size_t i) { return mirrors[i]->body()->path(); };
     for (const auto& link : links) {
-        link->tell(told, describe, joints, snapshot, now);
+        link->tell(told, describe, name, joints, snapshot, now);
     }
 }
 

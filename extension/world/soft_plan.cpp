@@ -27,7 +27,8 @@ SoftPlan::Built SoftPlan::built_so_far() const {
 
 bool SoftPlan::is_for(const SceneFrame& frame, double seconds) const {
     constexpr double rounding = 1e-6;  // of Godot's places (unit: meters)
-    return same_scaling(description_.frame.axes, frame.axes) &&
+    const Mat3& made = description_.frame.axes;
+    return has_only_drifted(made, frame.axes, frame.axes) &&
            glm::distance(description_.frame.origin, frame.origin) < rounding &&
            description_.seconds == seconds;
 }
@@ -52,9 +53,16 @@ SoftModelResult SoftPlan::make() const {
     for (Vec3& vertex : mesh.vertices) {
         vertex += d.frame.origin;
     }
+    // One beyond the owner's vertices is none of the mesh's either.
+    HeldParts held = d.held;
+    if (!read.merged.empty()) {
+        std::erase_if(held.vertices, [&](std::uint32_t vertex) { return vertex >= read.merged.size(); });
+        std::ranges::transform(held.vertices, held.vertices.begin(),
+                               [&](std::uint32_t vertex) { return read.merged[vertex]; });
+    }
     return d.form == SoftDescription::Form::sheet
-               ? make_soft_sheet(mesh, d.material, d.held, d.seconds)
-               : make_soft_volume(mesh, d.cells, d.material, d.held, d.seconds);
+               ? make_soft_sheet(mesh, d.material, held, d.seconds)
+               : make_soft_volume(mesh, d.cells, d.material, held, d.seconds);
 }
 
 }  // namespace tactus

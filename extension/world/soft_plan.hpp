@@ -23,7 +23,7 @@ struct SoftDescription {
     SceneFrame frame;  // of all these in the body's frame, scale included
     int cells = 8;
     SoftMaterial material;
-    HeldParts held;         // in the body's frame
+    HeldParts held;         // in the body's frame; its vertices are the source's, as its owner counts them
     double seconds = 1e-3;  // of a tick
 };
 
@@ -41,6 +41,7 @@ public:
     Built built();
     // Nothing yet where nobody has built it, or is at it.
     Built built_so_far() const;
+    // Of a frame that has drifted by turning (has_only_drifted()), too.
     bool is_for(const SceneFrame& frame, double seconds) const;
 
 private:

@@ -75,6 +75,7 @@ const TriangleSource::Checked& TriangleSource::triangles() {
     if (const auto ask = std::exchange(read_, nullptr)) {
         Read read = ask();
         const auto mesh = Workers::freed_aside(std::move(read.mesh));
+        checked_.merged = std::move(read.merged);
         checked_.error = read.error.empty() ? check_mesh(*mesh) : std::move(read.error);
         checked_.mesh = checked_.error.empty() ? mesh : nullptr;
     }

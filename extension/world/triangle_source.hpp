@@ -32,6 +32,8 @@ public:
     struct Checked {
         std::shared_ptr<const TriangleMesh> mesh;  // null where there is an error
         std::string error;                         // what is wrong and what to do
+        // By the vertex as its owner counts them, across all surfaces: that of the mesh. Empty: the same.
+        std::vector<std::uint32_t> merged = {};
     };
 
     // Triangles as they were read. Where there is an error, it says why there are none.
@@ -41,6 +43,7 @@ public:
 
         TriangleMesh mesh;
         std::string error;
+        std::vector<std::uint32_t> merged;  // see Checked
     };
 
     // `read` gives the triangles, about so many, when somebody asks for them: once, on whichever thread that

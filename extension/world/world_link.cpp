@@ -19,6 +19,9 @@ constexpr Nanoseconds refusal_lasts = 1'000'000'000;
 // A body whose values change in every frame is not described in every frame.
 constexpr Nanoseconds tell_again_after = 250'000'000;
 
+// Bodies whose names are asked for in a frame.
+constexpr std::size_t names_at_once = 16;
+
 std::string ports(const NetworkSettings& settings) {
     return settings.udp.remote_address + ":" + std::to_string(settings.udp.remote_port) +
            " (this side listens on port " + std::to_string(settings.udp.local_port) + ")";
@@ -240,9 +243,9 @@ bool WorldLink::synchronise(const std::optional<LinkPlan>& plan, const Vec3& gra
     return builder_->update(moment.now, port_->statistics.front().link);
 }
 
-void WorldLink::tell(const std::vector<Told>& bodies, const Describe& describe,
+void WorldLink::tell(const std::vector<Told>& bodies, const Describe& describe, const Name& name,
                      const std::vector<ToldJoint>& joints, const SessionSnapshot& snapshot, Nanoseconds now) {
-    tell_bodies(bodies, describe, now);
+    tell_bodies(bodies, describe, name, now);
     tell_joints(joints);
     teller_->update(snapshot, port_->statistics.front().link.peer_epoch);
 }
@@ -267,19 +270,35 @@ void WorldLink::tell_joints(const std::vector<ToldJoint>& joints) {
     });
 }
 
-void WorldLink::tell_bodies(const std::vector<Told>& bodies, const Describe& describe, Nanoseconds now) {
+// Of `of` bodies, names_at_once are asked for in a frame.
+bool WorldLink::has_other_name(const Telling& telling, std::size_t index, std::size_t of,
+                               const Name& name) const {
+    const std::size_t from = names_from_ % of;
+    return (index + of - from) % of < names_at_once && name(index) != telling.name;
+}
+
+void WorldLink::tell_bodies(const std::vector<Told>& bodies, const Describe& describe, const Name& name,
+                            Nanoseconds now) {
     std::unordered_set<SessionHandle> there;
+    std::vector<std::pair<const Told*, Description>> due;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         const Told& told = bodies[i];
         there.insert(told.body);
         const auto before = tellings_.find(told.body);
         if (before == tellings_.end() ||
-            (before->second.revision != told.revision && now - before->second.at >= tell_again_after)) {
-            const Description description = describe(i);
-            tellings_[told.body] = {told.revision, now,
-                                    teller_->tell(told.body, description.name, description.addition)};
+            (before->second.revision != told.revision && now - before->second.at >= tell_again_after) ||
+            has_other_name(before->second, i, bodies.size(), name)) {
+            due.emplace_back(&told, describe(i));
         }
     }
+    // What others rest on comes first.
+    std::ranges::stable_partition(
+        due, [](const auto& one) { return one.second.addition.description.motion != Motion::Dynamic; });
+    for (const auto& [told, description] : due) {
+        tellings_[told->body] = {told->revision, now, description.name,
+                                 teller_->tell(told->body, description.name, description.addition)};
+    }
+    names_from_ = bodies.empty() ? 0 : (names_from_ + names_at_once) % bodies.size();
     std::erase_if(tellings_, [&](const auto& telling) {
         const bool gone = !there.contains(telling.first);
         if (gone) {
@@ -378,13 +397,17 @@ WorldLink::Standing WorldLink::standing_of_peer() const {
         case PeerState::connected:
             break;
     }
-    if (link.peer_hello.scenario != plan_.scenario) {
-        return {LinkState::refused, "the far side is set to scenario " +
-                                        std::to_string(link.peer_hello.scenario) + " and this side to " +
-                                        std::to_string(plan_.scenario) + ": set both alike"};
+    const TeleopStatistics& teleop = port_->statistics.front();
+    const std::string differs = explain(teleop.disagreement, teleop.own_terms, teleop.peer_terms,
+                                        is_operator() ? Side::operator_side : Side::teleoperator_side);
+    if (teleop.disagreement.whole && !differs.empty()) {
+        return {LinkState::refused, differs};
     }
-    return {LinkState::connected,
-            plan_.trace_problem.empty() ? std::string("connected") : "connected; " + plan_.trace_problem};
+    std::string text = "connected";
+    for (const std::string& besides : {differs, plan_.trace_problem}) {
+        text += besides.empty() ? "" : "; " + besides;
+    }
+    return {LinkState::connected, text};
 }
 
 LinkReport WorldLink::report() const {

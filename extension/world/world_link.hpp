@@ -112,6 +112,7 @@ public:
         BodyAddition addition;
     };
     using Describe = std::function<Description(std::size_t index)>;
+    using Name = std::function<std::string(std::size_t index)>;
     // A joint of the session, as it was given to it (Session::add_joint).
     struct ToldJoint {
         SessionHandle joint = no_handle, first = no_handle, second = no_handle;
@@ -120,9 +121,9 @@ public:
         std::uint64_t source = 0, revision = 0;
     };
     // Far side: all that there is to touch, and what joins it; `describe` is asked for those bodies that are
-    // to be told.
-    void tell(const std::vector<Told>& bodies, const Describe& describe, const std::vector<ToldJoint>& joints,
-              const SessionSnapshot& snapshot, Nanoseconds now);
+    // to be told, `name` for a few in turn: nothing says that a node was renamed or has another parent.
+    void tell(const std::vector<Told>& bodies, const Describe& describe, const Name& name,
+              const std::vector<ToldJoint>& joints, const SessionSnapshot& snapshot, Nanoseconds now);
 
     // The far side is told in the next tick, which is this side's last.
     void leave();
@@ -154,6 +155,7 @@ private:
     struct Telling {
         std::uint64_t revision = 0;  // that was told
         Nanoseconds at = 0;
+        std::string name;
         std::string problem;
     };
     struct Standing {
@@ -163,7 +165,9 @@ private:
 
     static WayPlan way_of(const LinkPlan& plan);
     LinkEnd end_of(const SessionSettings& session, const PointerShare& share);
-    void tell_bodies(const std::vector<Told>& bodies, const Describe& describe, Nanoseconds now);
+    void tell_bodies(const std::vector<Told>& bodies, const Describe& describe, const Name& name,
+                     Nanoseconds now);
+    bool has_other_name(const Telling& telling, std::size_t index, std::size_t of, const Name& name) const;
     void tell_joints(const std::vector<ToldJoint>& joints);
     void pass_on_settings(const Vec3& gravity);
     void let_go_of_way();
@@ -188,6 +192,7 @@ private:
     bool builds_elsewhere_ = false;              // in real time it does not hold frames up
     std::unique_ptr<EnvironmentTeller> teller_;  // far side
     std::unordered_map<SessionHandle, Telling> tellings_;
+    std::size_t names_from_ = 0;  // of the bodies whose names are asked for next
     std::unordered_map<SessionHandle, std::pair<std::uint64_t, std::uint64_t>>
         told_joints_;  // source, revision
 

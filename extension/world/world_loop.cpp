@@ -52,11 +52,11 @@ TickStatus WorldLoop::tick_function(void* self, Nanoseconds scheduled) {
         loop.is_new_ = false;
         loop.ahead_.store(scheduled - loop.next_time_, std::memory_order_relaxed);
     }
-    return loop.tick(scheduled - loop.ahead_.load(std::memory_order_relaxed));
+    return loop.tick(scheduled - loop.ahead_.load(std::memory_order_relaxed), monotonic_now() - scheduled);
 }
 
-TickStatus WorldLoop::tick(Nanoseconds now) {
-    const TickStatus status = session_.tick(now, trace_.get());
+TickStatus WorldLoop::tick(Nanoseconds now, Nanoseconds late) {
+    const TickStatus status = session_.tick(now, trace_.get(), late);
     next_time_ = now + session_.settings().period;
     ticks_.store(ticks_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
     return status;
@@ -68,7 +68,7 @@ void WorldLoop::advance(std::int64_t ticks, const std::function<void()>& between
         if (trace_ != nullptr) {
             trace_->begin_stepped_tick(now, monotonic_now());
         }
-        const TickStatus status = tick(now);
+        const TickStatus status = tick(now, 0);
         stepped_status_ |= status;
         if (trace_ != nullptr) {
             trace_->end_tick(monotonic_now(), status);

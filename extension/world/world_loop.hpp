@@ -29,13 +29,14 @@ public:
     std::string start(const TickLoopSettings& settings, bool baseline);
     void stop();
     bool is_running() const { return loop_.running(); }
+    const TickLoopSettings& settings() const { return settings_; }  // as it was started last
     // A thread of its own makes the ticks, or will.
     bool is_real_time() const { return real_time_; }
 
     // Stepped time: ticks at once, here. `between` is called now and then, before any ring is full.
     void advance(std::int64_t ticks, const std::function<void()>& between);
     // One tick, here; nobody else ticks.
-    void tick_once() { tick(next_time_); }
+    void tick_once() { tick(next_time_, 0); }
 
     // Every tick is timed from now on. Empty text, or why the loop could not go on.
     std::string trace_ticks();
@@ -58,7 +59,7 @@ public:
 
 private:
     static TickStatus tick_function(void* self, Nanoseconds scheduled);
-    TickStatus tick(Nanoseconds now);
+    TickStatus tick(Nanoseconds now, Nanoseconds late);
 
     Session& session_;
     bool real_time_;

@@ -4,8 +4,10 @@
 //   --places=N   of the workspace, for each geometry (1000000)
 //   --inputs=N   at random to the safety layer (10000000)
 //   --rounds=N   start-ups and replugs of the played Falcon, a tenth of its stalls (100); 0: none
-//   --seconds=S  in contact, behind each of --phases=N phases between the loop and a device (10, 32); 0: none
-//   --displayed  nothing but that
+//   --seconds=S  in contact, behind each of --phases=N phases between the loop and a device (10, 32), and at
+//                each rate; 0: none
+//   --displayed  nothing but that, and what lying devices are given
+//   --driver=NAME  of that one alone (force_dimension, openhaptics, inverse3, falcon)
 //   --plugged=falcon|force_dimension|openhaptics|inverse3 [--firmware=FILE] [--id=NAME]
 //                the device of that kind that is plugged in, and nothing else
 #include <algorithm>
@@ -25,12 +27,7 @@
 #include "devices/robot_table.hpp"
 #include "devices/simulated_arm.hpp"
 #ifdef __linux__
-#include "devices/haply/inverse3_driver.hpp"
-#include "devices/runtime_library.hpp"
-#include "devices/vendors/force_dimension_driver.hpp"
-#include "devices/vendors/openhaptics_driver.hpp"
-#include "shared/haply_service.hpp"
-#include "stand_ins/stand_ins.hpp"
+#include "shared/stand_in_devices_linux.hpp"
 #endif
 #ifdef TACTUS_PLAYED_USB
 #include "devices/falcon/falcon_driver.hpp"
@@ -41,7 +38,9 @@
 #include "shared/delta_figures.hpp"
 #include "shared/displayed_figures.hpp"
 #include "shared/driver_figures.hpp"
+#include "shared/lying_figures.hpp"
 #include "shared/safety_figures.hpp"
+#include "shared/script_forces.hpp"
 
 namespace {
 
@@ -185,6 +184,21 @@ void report_walls(Report& report) {
                 rows.size(), created, unstable, created_free, unstable_free);
 }
 
+// Forces that scripts compute, on an arm: see script_forces.hpp.
+void report_scripts(Report& report, int runs) {
+    ScriptFigures all;
+    for (const ScriptForm form : script_forms) {
+        for (int seed = 0; seed < runs; ++seed) {
+            all.add(play_script(form, 3'000 + static_cast<std::uint64_t>(seed)));
+        }
+    }
+    report.set("safety.script_forces", all.runs);
+    report.set("safety.script_energy_created_max_J", all.energy_made_max);
+    report.set("safety.script_shake_max_mm", 1e3 * all.shake_max);
+    std::printf("scripts     %d forces, at most %.1e J made, shaking by %.2f mm\n", all.runs,
+                all.energy_made_max, 1e3 * all.shake_max);
+}
+
 void report_exchanges(Report& report, const char* name, const ExchangeFigures& figures) {
     report.set(std::string(name) + ".exchanges_per_s", figures.per_second);
     report.set(std::string(name) + ".exchange_jitter_p99_ms", figures.jitter_p99_ms);
@@ -217,7 +231,7 @@ void report_ticks_of_hands(Report& report) {
 // Keys of one device: quiet, beside busy processors, and at every rate that the world offers.
 void report_displayed(Report& report, const std::string& name, const WatchedDevice& watched, int phases,
                       double seconds) {
-    const auto play = [&](const std::string& manner, DisplayedCase c) {
+    const auto play = [&](const std::string& manner, const DisplayedCase& c) {
         const DisplayedFigures figures = play_displayed(watched, c);
         const std::string key = name + "." + manner;
         report.set(key + "let_go_while_even", static_cast<double>(figures.let_go_while_even));
@@ -250,41 +264,70 @@ void report_displayed(Report& report, const std::string& name, const WatchedDevi
     play("loaded.", c);
     c.is_loaded = false;
     c.phases = std::min(phases, 4);
-    for (const int rate : {640, 2000, 4000}) {
+    for (const int rate : {100, 250, 500, 640, 1000, 2000, 4000}) {
+        const std::string manner = "rate_" + std::to_string(rate) + ".";
         c.rate = rate;
-        play("rate_" + std::to_string(rate) + ".", c);
+        const std::string refused = refusal(watched, c.rate);
+        report.set(name + "." + manner + "refused", refused.empty() ? 0.0 : 1.0);
+        if (refused.empty()) {
+            play(manner, c);
+        } else {
+            std::printf("%-15s %-10s refused: %s\n", name.c_str(), manner.c_str(), refused.c_str());
+        }
     }
 }
 
-#ifdef __linux__
-template <typename StandIn>
-StandIn& stand_in(std::initializer_list<const char*> names, const char* function) {
-    static RuntimeLibrary library;
-    StandIn* (*get)() = nullptr;
-    library.load(names, function);
-    library.find({{function, get}});
-    return *get();
+// What its motors give while it lies about a field: of all lies that no force may be given on, the longest
+// time until it has gone.
+void report_lies(Report& report, const std::string& name, const LyingDevice& device) {
+    using stand_ins::Field, stand_ins::Lie;
+    LyingHand hand(device);
+    if (!hand.is_there()) {
+        std::printf("%-15s is not there\n", name.c_str());
+        return;
+    }
+    double to_zero = 0.0, step = 0.0;
+    int lies = 0, safe = 0;
+    for (int field = 0; field < static_cast<int>(Field::count); ++field) {
+        for (int lie = 1; lie < static_cast<int>(Lie::count); ++lie) {
+            const LyingFigures figures = hand.play(static_cast<Field>(field), static_cast<Lie>(lie));
+            const bool is_cut = is_nonsense(device, static_cast<Field>(field), static_cast<Lie>(lie));
+            const bool is_zero = figures.to_zero_ms >= 0.0;
+            ++lies;
+            safe += (is_zero || !is_cut) && figures.has_returned &&
+                            figures.return_step_max <= 1e-3 * hand.slew() + 1e-9
+                        ? 1
+                        : 0;
+            to_zero = is_cut ? std::max(to_zero, is_zero ? figures.to_zero_ms : 1e9) : to_zero;
+            step = std::max(step, figures.return_step_max);
+        }
+    }
+    report.set(name + ".lies", lies);
+    report.set(name + ".lies_safe", safe);
+    report.set(name + ".lie_to_zero_max_ms", to_zero);
+    report.set(name + ".lie_return_step_max_N", step);
+    std::printf("%-15s lies       %d of %d safe, no force after %.2f ms, back in steps of %.2f N\n",
+                name.c_str(), safe, lies, to_zero, step);
+    std::fflush(stdout);
 }
 
-void report_displayed_of_drivers(Report& report, int phases, double seconds) {
-    auto& dhd = stand_in<stand_ins::ForceDimension>({"libdhd.so"}, "stand_in_force_dimension");
-    report_displayed(report, "force_dimension",
-                     {[] { return std::make_unique<ForceDimensionDriver>(""); },
-                      [&dhd] { return Vec3(dhd.force[1].load(), dhd.force[2].load(), dhd.force[0].load()); },
-                      [&dhd] { return dhd.most_step.exchange(0.0); }},
-                     phases, seconds);
-    auto& hd = stand_in<stand_ins::OpenHaptics>({"libHD.so"}, "stand_in_openhaptics");
-    report_displayed(report, "openhaptics",
-                     {[] { return std::make_unique<OpenHapticsDriver>(""); },
-                      [&hd] { return Vec3(hd.force[0].load(), hd.force[1].load(), hd.force[2].load()); },
-                      [&hd] { return hd.most_step.exchange(0.0); }},
-                     phases, seconds);
+#ifdef __linux__
+void report_displayed_of_drivers(Report& report, int phases, double seconds, const std::string& only) {
+    const auto play = [&](const std::string& name, const LyingDevice& device) {
+        if (only.empty() || only == name) {
+            report_displayed(report, name, device.watched, phases, seconds);
+            report_lies(report, name, device);
+        }
+    };
+    auto& dhd = *stand_in<stand_ins::ForceDimension>({"libdhd.so"}, "stand_in_force_dimension");
+    dhd.has_wrist = true;
+    dhd.buttons = 1;
+    play("force_dimension", force_dimension_device());
+    dhd.has_wrist = false;
+    stand_in<stand_ins::OpenHaptics>({"libHD.so"}, "stand_in_openhaptics")->buttons = 1;
+    play("openhaptics", openhaptics_device());
     HaplyService service;
-    report_displayed(
-        report, "inverse3",
-        {[&service] { return std::make_unique<Inverse3Driver>("", service.port()); },
-         [&service] { return service.newest_force(); }, [&service] { return service.take_most_step(); }},
-        phases, seconds);
+    play("inverse3", inverse3_device(service));
 }
 
 void report_ticks(Report& report, const char* name, std::unique_ptr<Driver> driver) {
@@ -338,10 +381,14 @@ void report_displayed_of_falcon(Report& report, int phases, double seconds) {
     usb.plug();
     FalconSettings settings;
     settings.firmware = PlayedFalcon::firmware();
-    report_displayed(report, "falcon",
-                     {[&settings] { return std::make_unique<FalconDriver>(settings); },
-                      [&usb] { return usb.force(); }, [&usb] { return usb.take_most_step(); }},
-                     phases, seconds);
+    const LyingDevice device{{[&settings] { return std::make_unique<FalconDriver>(settings); },
+                              [&usb] { return usb.force(); }, [&usb] { return usb.take_most_step(); }},
+                             [&usb](stand_ins::Field field, stand_ins::Lie lie) { usb.lie(field, lie); },
+                             false};
+    report_displayed(report, "falcon", device.watched, phases, seconds);
+    usb.mean({0.0, -0.03, 0.0});
+    usb.press(1);
+    report_lies(report, "falcon", device);
 }
 
 void report_stalls(Report& report, const char* what, const StallFigures& figures) {
@@ -398,6 +445,7 @@ int main(int count, char** arguments) {
     const int phases = static_cast<int>(options.number("phases", 32));
     const double seconds = options.number("seconds", 10.0);
     const bool only_displayed = options.has("displayed");
+    const std::string driver = options.text("driver");
     const std::string plugged = options.text("plugged");
     const std::string firmware = options.text("firmware");
     const std::string id = options.text("id");
@@ -410,10 +458,12 @@ int main(int count, char** arguments) {
     }
     if (seconds > 0.0) {
 #ifdef __linux__
-        report_displayed_of_drivers(report, phases, seconds);
+        report_displayed_of_drivers(report, phases, seconds, driver);
 #endif
 #ifdef TACTUS_PLAYED_USB
-        report_displayed_of_falcon(report, phases, seconds);
+        if (driver.empty() || driver == "falcon") {
+            report_displayed_of_falcon(report, phases, seconds);
+        }
 #endif
     }
     if (only_displayed) {
@@ -423,6 +473,7 @@ int main(int count, char** arguments) {
     write_conditioning();
     report_random_input(report, inputs);
     report_walls(report);
+    report_scripts(report, 50);
     if (rounds > 0) {
         report_ticks_of_hands(report);
 #ifdef __linux__

@@ -1,6 +1,6 @@
 // What a hand feels of changes of the scene, and whether what deforms passes it: build/bench/kick.json.
 //
-//   --seeds=N   runs of each kind of change (200)
+//   --seeds=N   runs of each kind of change, and of each kind of script's force (200)
 //   --deformations=N   of meshes (10000)
 #include <cstdio>
 #include <string>
@@ -8,6 +8,7 @@
 #include "shared/bench_kit.hpp"
 #include "shared/deforms.hpp"
 #include "shared/kicks.hpp"
+#include "shared/script_forces.hpp"
 
 namespace {
 
@@ -41,6 +42,22 @@ void report_kicks(Report& report, int seeds) {
     tell("all", all);
 }
 
+void report_scripts(Report& report, int seeds) {
+    for (const ScriptForm form : script_forms) {
+        ScriptFigures figures;
+        for (int seed = 0; seed < seeds; ++seed) {
+            figures.add(play_script(form, 1'000 + static_cast<std::uint64_t>(seed)));
+        }
+        const std::string name = "script." + std::string(name_of(form));
+        report.set(name + ".energy_made_max_J", figures.energy_made_max);
+        report.set(name + ".shake_max_mm", 1e3 * figures.shake_max);
+        report.set(name + ".limited", figures.limited);
+        std::printf("script %-8s %d runs, %d limited, %.4f J made, shaking by %.2f mm\n",
+                    std::string(name_of(form)).c_str(), figures.runs, figures.limited,
+                    figures.energy_made_max, 1e3 * figures.shake_max);
+    }
+}
+
 void report_deforms(Report& report, int deformations) {
     DeformFigures figures;
     for (std::uint64_t seed = 100'000; figures.deformations < deformations; ++seed) {
@@ -66,6 +83,7 @@ int main(int count, char** arguments) {
     }
     Report report;
     report_kicks(report, seeds);
+    report_scripts(report, seeds);
     report_deforms(report, deformations);
     return report.write_json(result_path("kick")) ? 0 : 1;
 }

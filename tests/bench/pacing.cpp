@@ -195,6 +195,12 @@ std::vector<Case> cases(bool compare) {
         all.back().settings.sleep.spin_limit = 0;
         all.push_back({name + "_on_kernel_ticks", work, {}});
         all.back().settings.phase = 0;
+        all.push_back({name + "_always_awake", work, {}});
+        all.back().settings.awake_lead = all.back().settings.period;
+        for (const int lead : {60, 240, 400}) {
+            all.push_back({name + "_lead" + std::to_string(lead), work, {}});
+            all.back().settings.awake_lead = lead * 1000;
+        }
         all.push_back({name + "_may_sleep", work, {}});
         all.back().settings.realtime.keep_awake = false;
         all.push_back({name + "_any_processor", work, {}});

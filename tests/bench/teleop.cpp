@@ -1,5 +1,8 @@
 // Cases of teleoperation in virtual time: ./run bench teleop --scene=FILE --cases=FILE
 //
+//     ./run bench teleop --agreement=1: sides that differ, see tests/shared/agreement.hpp.
+//     ./run bench teleop --still=1: a hand that holds still, see tests/shared/unexplained_steps.hpp.
+//
 // Both files are lines of words (tests/shared/teleop_words.hpp). The result is one line of JSON a case: its
 // name, its figures and, with --bins=1, how the ticks spread.
 #include <algorithm>
@@ -9,9 +12,11 @@
 #include <sstream>
 #include <string>
 
+#include "shared/agreement.hpp"
 #include "shared/bench_kit.hpp"
 #include "shared/teleop_run.hpp"
 #include "shared/teleop_words.hpp"
+#include "shared/unexplained_steps.hpp"
 
 namespace {
 
@@ -54,6 +59,29 @@ std::string unknown_body(const TeleopScene& scene, const TeleopCase& experiment)
     return is_there(experiment.object) ? "" : experiment.object;
 }
 
+void print_agreements() {
+    for (const AgreementCase& one : agreement_cases()) {
+        const AgreementFigures figures = run_agreement(one);
+        const auto word = [](bool value) { return value ? "true" : "false"; };
+        std::printf(
+            "{\"case\": \"%s\", \"alike\": %s, \"near_force_N\": %.9g, \"far_force_N\": %.9g, "
+            "\"force_step_max_N\": %.9g, \"near_says\": %s, \"far_says\": %s}\n",
+            one.name.c_str(), word(one.alike), figures.near_force, figures.far_force, figures.largest_step,
+            word(figures.near_says), word(figures.far_says));
+    }
+}
+
+void print_still() {
+    for (const StillCase& one : still_cases()) {
+        const StillFigures figures = run_still(one);
+        std::printf(
+            "{\"case\": \"%s\", \"pressed_N\": %.9g, \"step_unexplained_max_N\": %.9g, "
+            "\"told_step_unexplained_max_N\": %.9g, \"far_step_max_N\": %.9g, \"far_alone_max_N\": %.9g}\n",
+            one.name.c_str(), figures.pressed, figures.near_step, figures.told_step, figures.far_step,
+            figures.far_alone);
+    }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -61,8 +89,18 @@ int main(int argc, char** argv) {
     const std::string scene_file = options.text("scene");
     const std::string cases_file = options.text("cases");
     const bool with_bins = options.text("bins") == "1";
+    const bool agreement = options.text("agreement") == "1";
+    const bool still = options.text("still") == "1";
     if (!options.understood()) {
         return 2;
+    }
+    if (agreement) {
+        print_agreements();
+        return 0;
+    }
+    if (still) {
+        print_still();
+        return 0;
     }
     if (scene_file.empty() || cases_file.empty()) {
         std::cout << "runs the cases of ./run experiment static_mmt, dynamic_mmt and others; nothing to do\n";

@@ -46,7 +46,8 @@ struct Line {
             const ForceSlot::Due due = slot.due();
             if (due.looked_at != 0 && due.at < now && due.looked_at != taken_look) {
                 taken_look = due.looked_at;
-                slot.taken(due.at);
+                slot.note_taken(due.at);
+                slot.taken();
                 displayed = Vec3(0.0);
                 ++taken;
             }
@@ -71,6 +72,7 @@ struct Line {
             most_step = std::max(most_step, glm::distance(force, displayed));
             displayed = force;
             least = std::min(least, displayed.y);
+            slot.given(now);
         }
     }
 };
@@ -91,6 +93,64 @@ TEST(ForceSlot, AnEvenLoopIsNotCutAtAnyPhaseOrRate) {
             EXPECT_EQ(line.slot.cuts(), ForceSlot::Cuts{}) << rate << " Hz, phase " << phase;
         }
     }
+}
+
+// It declares a thousand exchanges a second, or says nothing of them: its lives follow from what it does.
+TEST(ForceSlot, ADeviceThatIsSlowerThanItSaysIsNotCutAgainAndAgain) {
+    for (const bool is_paced : {true, false}) {
+        for (const Nanoseconds period : {ms * 13 / 10, ms * 16 / 10, 2 * ms, ms * 23 / 10}) {
+            Line line;
+            line.slot.begin(device(), is_paced);
+            line.look = period;
+            line.run_until(begin + 500 * ms);
+            const ForceSlot::Cuts before = line.slot.cuts();
+            line.taken = 0;
+            line.least = 1e9;
+            line.run_until(begin + 2'500 * ms);
+            EXPECT_EQ(line.least, 4.0) << period;
+            EXPECT_EQ(line.taken, 0) << period;
+            EXPECT_EQ(line.slot.cuts(), before) << period;
+            line.loop_goes = false;
+            const Nanoseconds last = line.next_write - ms;
+            line.run_until(last + free_within + 1);
+            EXPECT_EQ(line.displayed, Vec3(0.0)) << "and free 2 ms after the loop, " << period;
+        }
+    }
+}
+
+TEST(ForceSlot, ADeviceThatAnswersTooSeldomIsGivenNothingUntilItAnswersOftenAgain) {
+    for (const bool is_paced : {true, false}) {
+        Line line;
+        line.slot.begin(device(), is_paced);
+        line.look = 4 * ms;
+        line.run_until(begin + 1'000 * ms);
+        EXPECT_TRUE(line.slot.is_too_slow());
+        line.least = 1e9;
+        const ForceSlot::Cuts before = line.slot.cuts();
+        line.run_until(begin + 2'000 * ms);
+        EXPECT_EQ(line.displayed, Vec3(0.0));
+        EXPECT_EQ(line.slot.cuts(), before) << "it is refused, and not cut";
+        line.look = ms;
+        line.most_step = 0.0;
+        line.run_until(begin + 6'000 * ms);
+        EXPECT_FALSE(line.slot.is_too_slow());
+        EXPECT_EQ(line.displayed, asked);
+        EXPECT_LE(line.most_step, 4.0);
+    }
+}
+
+// While no loop writes a driver looks as seldom as it likes.
+TEST(ForceSlot, HowOftenADeviceIsReadWithoutALoopIsNotHeldAgainstIt) {
+    Line line;
+    line.slot.begin(device(), false);
+    line.loop_goes = false;
+    line.look = 10 * ms;
+    line.run_until(begin + 5'000 * ms);
+    line.loop_goes = true;
+    line.look = ms;
+    line.run_until(line.now + 20 * ms);
+    EXPECT_FALSE(line.slot.is_too_slow());
+    EXPECT_EQ(line.displayed, asked);
 }
 
 TEST(ForceSlot, ALoopThatIsRefusedGetsNothing) {
@@ -157,6 +217,34 @@ TEST(ForceSlot, AfterACutTheForceGrowsFromNothing) {
             EXPECT_GT(line.most_step, 0.0);
         }
     }
+}
+
+// The watchdog says so before it takes the force away, and after: the driver may look at any moment between.
+TEST(ForceSlot, ADriverThatLooksWhileItsForceIsTakenAwayBeginsAtNothing) {
+    Line line;
+    line.run_until(begin + 50 * ms);
+    ASSERT_EQ(line.displayed, asked);
+    line.slot.write(command(asked, line.now));
+    line.slot.taken();
+    const Vec3 between = line.slot.living(line.now + ms / 8);
+    EXPECT_LE(glm::length(between), 0.5 + 1e-9) << "4 N/ms";
+    line.slot.given(line.now + ms / 8);
+    line.slot.taken();
+    EXPECT_LE(glm::length(line.slot.living(line.now + ms / 4)), 0.5 + 1e-9) << "not on from there";
+}
+
+// A service is given a force for each of its states alone, and the driver looks in between.
+TEST(ForceSlot, AForceThatReturnsGrowsFromWhatTheDeviceHas) {
+    Line line;
+    line.run_until(begin + 50 * ms);
+    line.slot.taken();
+    for (int look = 1; look <= 3; ++look) {
+        line.slot.write(command(asked, line.now));
+        line.displayed = line.slot.living(line.now + look * ms / 4);
+        EXPECT_LE(glm::length(line.displayed), look * 1.0 + 1e-9) << "nothing has been sent, look " << look;
+    }
+    line.slot.given(line.now + ms);
+    EXPECT_LE(glm::distance(line.slot.living(line.now + ms * 5 / 4), line.displayed), 1.0 + 1e-9);
 }
 
 TEST(ForceSlot, AForceThatReturnsIsAsSlowAsTheDevice) {

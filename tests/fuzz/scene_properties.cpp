@@ -223,8 +223,10 @@ std::vector<Bytes> seeds() {
     joined.ask(body(BoxShape{Vec3(0.05)}, {0.0, 0.06, 0.0}, Motion::Dynamic));
     joined.ask(body(BoxShape{Vec3(0.05)}, {0.2, 0.06, 0.0}, Motion::Kinematic));
     joined.ask(command::AddJoint{0, hinge, 1, 2}).move({0.0, 0.11, 0.0}, 8);
-    joined.ask(command::MoveBody{2, there, 0.01}).ask(command::TeleportBody{1, there});
-    joined.ask(command::SetBodyVelocity{1, Vec3(1.0), Vec3(2.0)})
+    joined.ask(command::MoveBody{2, there, 0.01}).ask(command::TeleportBody{1, there, Session::all_of_pose});
+    joined.ask(command::TeleportBody{1, there, 0b1010})
+        .ask(command::ShiftBody{1, Vec3(0.01), there.rotation});
+    joined.ask(command::SetBodyVelocity{1, Vec3(1.0), Vec3(2.0), Session::all_of_velocity})
         .ask(command::SetBodyPush{1, Vec3(1.0), Vec3(0.1)});
     joined.ask(command::SetTouchMaterial{1, {800.0, 0.0, 0.1, 0.1}, nullptr});
     joined.ask(command::SetBodySurface{1, {0.3, 0.5, false, false}}).ask(command::SetBodyLayers{1, {1, 1}});

@@ -32,6 +32,65 @@ func test_every_enum_of_the_inspector_has_its_entries() -> void:
 	check(seen >= 8, "only %d enums" % seen)
 
 
+func _felt_body(at: Vector3) -> StaticBody3D:
+	var body := with_shape(StaticBody3D.new(), box(Vector3.ONE), at) as StaticBody3D
+	body.physics_material_override = material(500.0)
+	return body
+
+
+func _world_with_body() -> HapticWorld:
+	var world := HapticWorld.new()
+	world.clock = HapticWorld.CLOCK_STEPPED
+	world.add_child(_felt_body(Vector3.ZERO))
+	return world
+
+
+func _warnings(world: HapticWorld) -> String:
+	return "\n".join(world.get_warnings())
+
+
+func test_a_world_that_is_the_root_of_its_scene_warns_of_nothing() -> void:
+	var root := _world_with_body()
+	get_tree().root.add_child(root)
+	check_equal(_warnings(root), "", "warnings of a root")
+	root.free()
+	var child := _world_with_body()
+	add_child(child)
+	check_equal(_warnings(child), "", "warnings of a child")
+	child.free()
+
+
+func test_a_world_that_is_an_instance_warns_of_nothing() -> void:
+	var world := _world_with_body()
+	for node in world.find_children("*", "", true, false):
+		node.owner = world
+	var packed := PackedScene.new()
+	packed.pack(world)
+	world.free()
+	var scene := Node3D.new()
+	for i in 2:
+		scene.add_child(packed.instantiate())
+	add_child(scene)
+	for one: HapticWorld in scene.get_children():
+		check_equal(_warnings(one), "", "warnings of an instance")
+
+
+func test_a_body_outside_is_warned_of() -> void:
+	var scene := Node3D.new()
+	var world := _world_with_body()
+	scene.add_child(world)
+	var outside := _felt_body(Vector3(5, 0, 0))
+	outside.name = "Lonely"
+	scene.add_child(outside)
+	add_child(scene)
+	check(_warnings(world).contains("'Lonely'"), "it says: " + _warnings(world))
+	scene.remove_child(outside)
+	scene.remove_child(world)
+	outside.add_child(world)
+	scene.add_child(outside)
+	check(_warnings(world).contains("'Lonely'"), "with the body above, it says: " + _warnings(world))
+
+
 func _scripts(folder: String) -> PackedStringArray:
 	var found := PackedStringArray()
 	for file in DirAccess.get_files_at(folder):

@@ -3,7 +3,7 @@ extends "test_case.gd"
 
 const ADDON := "res://addons/tactus"
 ## Registered as such: neither the editor nor the reference shows them.
-const INTERNAL := [&"BodyWatch"]
+const INTERNAL := [&"BodyWatch", &"InputWatch"]
 
 
 func _classes() -> PackedStringArray:

@@ -4,7 +4,7 @@ extends "test_case.gd"
 
 const ADDON := "res://addons/tactus"
 ## Nodes in space that have no extent of their own, or are not for the editor.
-const WITHOUT_EXTENT := ["HapticFeedback", "BodyWatch"]
+const WITHOUT_EXTENT := ["HapticFeedback", "BodyWatch", "InputWatch"]
 
 static var _edited := 0
 
@@ -244,3 +244,48 @@ func test_the_dock_shows_what_a_scene_says() -> void:
 		dock.get_node("%Found").text.contains("mouse and keyboard"),
 		"it says: " + dock.get_node("%Found").text
 	)
+
+
+func _tools() -> PopupMenu:
+	var tools: PopupMenu = load(ADDON.path_join("editor/tools.gd")).new(
+		EditorInterface.get_editor_undo_redo()
+	)
+	add_child(tools)
+	return tools
+
+
+func test_a_rig_is_added_once_and_undone() -> void:
+	var root := await _edit([])
+	check(_tools().add_rig(root).contains("has a HapticWorld already"), "a second world")
+	root.get_node("HapticWorld").free()
+	check_equal(_tools().add_rig(root), "", "why not")
+	check(root.get_node_or_null("HapticRig/HapticWorld/HapticDevice") != null, "there is no hand")
+	check_equal(root.get_node("HapticRig").owner, root, "owner")
+	_undo(root)
+	check(root.get_node_or_null("HapticRig") == null, "the rig is still there")
+
+
+func test_what_is_selected_becomes_touchable_and_is_undone() -> void:
+	var root := await _edit([])
+	root.get_node("HapticWorld").free()
+	var body := StaticBody3D.new()
+	body.position = Vector3(1, 2, 3)
+	var picture := MeshInstance3D.new()
+	picture.mesh = BoxMesh.new()
+	for node: Node3D in [_named(body, "Body"), _named(picture, "Picture")]:
+		root.add_child(node)
+		node.owner = root
+	check(not _tools().make_touchable(root, [] as Array[Node]).is_empty(), "nothing is selected")
+	check(not _tools().make_touchable(root, [root] as Array[Node]).is_empty(), "the root")
+	check_equal(_tools().make_touchable(root, [body, picture] as Array[Node]), "", "why not")
+	check_equal(body.get_parent().get_class(), "HapticWorld", "parent of the body")
+	check_near(body.global_position, Vector3(1, 2, 3), 1e-6, "place")
+	check(body.physics_material_override is HapticMaterial, "material of the body")
+	check(picture.get_node("Touched").get_node("HapticMesh").mesh == picture.mesh, "touched mesh")
+	for node: Node in [body, picture, picture.get_node("Touched"), picture.get_node("Touched/HapticMesh")]:
+		check_equal(node.owner, root, "owner of %s" % node.name)
+	_undo(root)
+	check_equal(body.get_parent(), root, "parent after undo")
+	check(body.physics_material_override == null, "material after undo")
+	check(picture.get_node_or_null("Touched") == null, "body of the mesh after undo")
+	check(root.get_node_or_null("HapticWorld") == null, "world after undo")

@@ -194,7 +194,7 @@ func test_the_default_material_brings_its_effects_and_texture() -> void:
 func test_presets_fill_the_values_and_are_recognised() -> void:
 	var look := HapticMaterial.new()
 	check_equal(look.preset, HapticMaterial.PRESET_CUSTOM, "preset of a new material")
-	for preset: int in range(HapticMaterial.PRESET_RUBBER, HapticMaterial.PRESET_SPONGE + 1):
+	for preset: int in range(HapticMaterial.PRESET_RUBBER, HapticMaterial.PRESET_FOAM + 1):
 		look.preset = preset
 		check_equal(look.preset, preset, "preset")
 	look.preset = HapticMaterial.PRESET_STEEL
@@ -209,7 +209,7 @@ func test_presets_fill_the_values_and_are_recognised() -> void:
 func test_presets_feel_as_stiff_and_as_slippery_as_they_are_called() -> void:
 	var normal := {}
 	var along := {}
-	for preset: int in range(HapticMaterial.PRESET_RUBBER, HapticMaterial.PRESET_SPONGE + 1):
+	for preset: int in range(HapticMaterial.PRESET_RUBBER, HapticMaterial.PRESET_FOAM + 1):
 		var look := HapticMaterial.new()
 		look.preset = preset
 		var proxy := _stroke(look, Vector3(0, 0.008, 0), Vector3(0.05, 0.008, 0))
@@ -220,6 +220,9 @@ func test_presets_feel_as_stiff_and_as_slippery_as_they_are_called() -> void:
 		normal[preset] = proxy.get_force().y
 		along[preset] = drag / normal[preset]
 	check(normal[HapticMaterial.PRESET_STEEL] > 10.0 * normal[HapticMaterial.PRESET_SPONGE], str(normal))
+	check(normal[HapticMaterial.PRESET_FOAM] < normal[HapticMaterial.PRESET_SKIN], str(normal))
+	check(normal[HapticMaterial.PRESET_SKIN] < normal[HapticMaterial.PRESET_WOOD], str(normal))
+	check(along[HapticMaterial.PRESET_GLASS] < along[HapticMaterial.PRESET_WOOD], str(along))
 	check(along[HapticMaterial.PRESET_ICE] < 0.05, "friction of ice: %s" % along[HapticMaterial.PRESET_ICE])
 	check(along[HapticMaterial.PRESET_RUBBER] > 0.5, "rubber: %s" % along[HapticMaterial.PRESET_RUBBER])
 

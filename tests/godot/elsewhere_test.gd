@@ -112,10 +112,9 @@ func _process(_delta: float) -> void:
 const SAID := {
 	"World":
 	[
-		"'Csg' cannot be touched",
+		"'Csg' is not carried out as Godot has it",
 		"bake its collision shape",
 		"a GridMap is not carried over",
-		"an Area3D is not solid",
 		"a SoftBody3D is not carried over",
 		"'Outside' has a HapticMaterial",
 	],

@@ -92,6 +92,41 @@ func test_the_rigs_work_as_they_are() -> void:
 		await frames(1)
 
 
+func test_the_machine_is_checked() -> void:
+	var scene: Control = load("res://addons/tactus/check/check_machine.tscn").instantiate()
+	scene.seconds = 0.5
+	var reports: Array[String] = []
+	scene.finished.connect(func(report: String) -> void: reports.append(report))
+	add_child(scene)
+	check(await until(func() -> bool: return not reports.is_empty(), 20.0), "there is no report")
+	for words: String in ["Godot 4", "ticks a second of 1000 wanted", "Real-time rights", "Novint Falcon: "]:
+		check(reports[0].contains(words), "'%s' is not in: %s" % [words, reports[0]])
+
+
+## The force is seen without a key and without a script.
+func test_the_rig_shows_its_force() -> void:
+	var scene: Node3D = load("res://addons/tactus/HapticRig.tscn").instantiate()
+	var world: HapticWorld = scene.get_node("HapticWorld")
+	world.clock = HapticWorld.CLOCK_STEPPED
+	add_child(scene)
+	await frames(1)
+	var view: Node3D = world.get_node("HapticDevice/ProxyPointer/ForceView")
+	var device: HapticDevice = world.get_node("HapticDevice")
+	world.advance(0.1)
+	await frames(2)
+	check(not (view.get_node("%Arrow") as Node3D).visible, "an arrow without a force")
+	var below := world.get_viewport().get_camera_3d().unproject_position(Vector3(0.05, -0.01, 0.1))
+	device.aim_mouse(below)
+	world.advance(1.0)
+	await frames(2)
+	var force := device.get_force()
+	check(force.length() <= device.force_limit, "more than the device is given: %s" % force)
+	var arrow: Node3D = view.get_node("%Arrow")
+	check(force.length() > 0.1 and arrow.visible, "no arrow for %s" % force)
+	check_near(arrow.global_basis.y, force.normalized(), 1e-4, "direction of the arrow")
+	check_equal((view.get_node("%Words") as Label).text, "%.1f N" % force.length(), "words")
+
+
 func test_without_a_world() -> void:
 	var scene := Node3D.new()
 	scene.add_child(HapticDevice.new())
@@ -146,14 +181,14 @@ func test_a_world_with_nothing_in_it() -> void:
 
 
 func test_what_is_not_carried_over() -> void:
-	for kind: String in ["CSGBox3D", "GridMap", "SoftBody3D", "Area3D"]:
+	for kind: String in ["CSGBox3D", "GridMap", "SoftBody3D", "PhysicalBone3D"]:
 		var world := _stepped()
 		add_floor(world)
 		var node: Node = ClassDB.instantiate(kind)
 		if kind == "CSGBox3D":
 			node.use_collision = true
 		world.add_child(node)
-		await _say(world, "an Area3D is not solid" if kind == "Area3D" else "is not carried over")
+		await _say(world, "is not carried over")
 
 
 func test_integrate_forces() -> void:

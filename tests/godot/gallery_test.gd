@@ -90,6 +90,28 @@ func test_every_folder_is_a_scene_of_the_menu_and_has_a_picture() -> void:
 	check_equal(Gallery.name_of("res://main.tscn"), "", "name of a scene that is none of the gallery")
 
 
+## Neither cut nor beyond the window, in the sizes of a small laptop, of the project and of a large screen.
+func test_the_words_of_every_scene_fit() -> void:
+	for scene_name: String in Gallery.SCENES:
+		var scene := (load(Gallery.path_of(scene_name)) as PackedScene).instantiate()
+		Stepping.hold(scene)
+		add_child(scene)
+		var rows: Control = scene.get_node("Placard/Rows")
+		for size: Vector2 in [Vector2(1024, 600), Vector2(1280, 720), Vector2(1920, 1080)]:
+			rows.set_anchors_preset(Control.PRESET_TOP_LEFT)
+			# Lines are broken anew before their height is known.
+			for _i in 3:
+				rows.position = Vector2(24, 14)
+				rows.size = size - Vector2(48, 28)
+				await frames(1)
+			for label: Label in rows.find_children("*", "Label", false, false):
+				var area := Rect2(label.global_position, label.size)
+				var window := Rect2(Vector2.ZERO, size)
+				check(window.encloses(area), "%s at %s: %s is at %s" % [scene_name, size, label.name, area])
+		scene.free()
+		await frames(1)
+
+
 func test_the_menu_opens_each_scene_with_the_mouse_and_goes_back() -> void:
 	var menu := _menu()
 	var complaints := Complaints.new()

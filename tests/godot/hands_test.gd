@@ -147,7 +147,7 @@ func test_what_another_driver_needs_is_not_shown() -> void:
 
 
 func _box_of(device: HapticDevice) -> MeshInstance3D:
-	var pictures := device.get_children(true)
+	var pictures := device.get_children(true).filter(func(child: Node) -> bool: return child is Node3D)
 	return pictures[0] if pictures.size() == 1 else null
 
 

@@ -140,6 +140,45 @@ func test_each_launch_has_a_folder_of_its_own() -> void:
 	check(first != second and second.ends_with("bundle_2"), "both are %s" % second)
 
 
+func test_model_errors_are_read_by_name_kind_and_range() -> void:
+	expect_error("model_errors")
+	var link := MMTLink.new()
+	add_child(link)
+	var right := {"Box": {"mass": 1.2, "turn": [1, 0, 0, 10], "move": [0.0, 0.01, 0.0]}}
+	link.model_errors = right
+	for wrong: Dictionary in [
+		{"Box": {"mas": 1.2}},
+		{"Box": {"mass": "1.2"}},
+		{"Box": {"mass": -1.0}},
+		{"Box": {"mass": NAN}},
+		{"Box": {"move": [0.0, 0.1]}},
+		{"Box": {"turn": [1, 0, 0]}},
+		{"Box": {"move": 0.1}},
+		{"Box": 1.2},
+	]:
+		link.model_errors = wrong
+		check_equal(link.model_errors, right, "after %s" % [wrong])
+
+
+func test_two_recorders_do_not_write_over_each_other() -> void:
+	expect_error("is being written by another recording")
+	DirAccess.make_dir_recursive_absolute(_folder)
+	var recorders: Array[HapticRecorder] = []
+	for path: String in [_folder.path_join("rows.csv"), _folder.path_join("other/../rows.csv")]:
+		var recorder := HapticRecorder.new()
+		recorder.csv_path = path
+		recorder.autostart = false
+		add_child(recorder)
+		recorders.append(recorder)
+	check(recorders[0].start(), "the first one does not start")
+	check(not recorders[1].start(), "the second one starts")
+	check("another recording" in recorders[1].get_problem(), recorders[1].get_problem())
+	check_equal(recorders[0].get_problem(), "", "problem of the first one")
+	recorders[0].stop()
+	check(recorders[1].start(), "it does not start when the first one has stopped")
+	recorders[1].stop()
+
+
 func test_a_side_by_itself_refuses_what_there_is_not() -> void:
 	expect_error("was refused, the old value stays")
 	var link := MMTLink.new()

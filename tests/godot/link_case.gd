@@ -51,3 +51,12 @@ func _down_after(rests: float) -> HapticPath:
 	way.points_times = PackedFloat64Array([0.0, rests, rests + 0.1])
 	way.points_interpolation = HapticPath.INTERPOLATION_LINEAR
 	return way
+
+
+func _add_hands(rests := 0.5) -> void:
+	for world: HapticWorld in [_operator, _far]:
+		add_hand(world, _down_after(rests))
+
+
+func _felt(world: HapticWorld) -> Vector3:
+	return (world.get_node("Device") as HapticDevice).get_force()

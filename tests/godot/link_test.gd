@@ -2,15 +2,6 @@ extends "link_case.gd"
 ## Touch over a network: the operator's world and the far one, in one process and in stepped time.
 
 
-func _add_hands(rests := 0.5) -> void:
-	for world: HapticWorld in [_operator, _far]:
-		add_hand(world, _down_after(rests))
-
-
-func _felt(world: HapticWorld) -> Vector3:
-	return (world.get_node("Device") as HapticDevice).get_force()
-
-
 func test_the_two_sides_find_each_other() -> void:
 	await _connect(MMTLink.SCENARIO_MMT)
 	_advance(0.2)

@@ -138,6 +138,24 @@ func test_nodes_of_one_name_are_told_apart() -> void:
 func test_a_plots_scale_fits() -> void:
 	for pair: Array in [[0.0, 1.0], [0.3, 0.5], [1.0, 1.0], [1.1, 2.0], [30.0, 50.0], [700.0, 1000.0]]:
 		check_near(Plot.top_for(pair[0]), pair[1], 1e-9, "top for %s" % pair[0])
+	check_near(Plot.top_for(1000.9), 1000.0, 1e-9, "a loop that is a little too fast")
+
+
+func test_one_is_not_several() -> void:
+	check_equal(PanelScript.counted(1, "body", "bodies"), "1 body", "one")
+	check_equal(PanelScript.counted(0, "body", "bodies"), "0 bodies", "none")
+
+
+## Curves stay below the words about them, however many lines these take.
+func test_a_plots_words_and_curves_do_not_overlap() -> void:
+	var plot := Plot.new()
+	add_child(plot)
+	plot.size = Vector2(300, 64)
+	for i in 4:
+		plot.add("a pointer with a long name %d" % i, 0.0, 1.0)
+		plot.add("a pointer with a long name %d" % i, 1.0, 1.0)
+	await frames(3)
+	check(plot.size.y >= 5 * Plot.LINE + Plot.LEAST, "four lines of names leave no room: %s" % plot.size)
 
 
 ## Below zero, too: what a hand does at a spring is taken from it.

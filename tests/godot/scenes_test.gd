@@ -65,6 +65,7 @@ func test_two_runs_of_the_dynamic_testbed_are_the_same_bytes() -> void:
 	check(first.text == second.text, "they differ")
 	var columns := _columns(first.text)
 	check(absf(columns.object_x[5999] - columns.object_x[0]) > 0.1, "the box was not pushed")
+	check(columns.ran_us == columns.time_us, "a stepped tick runs when it is due")
 
 
 func test_every_scene_of_the_experiments_plays() -> void:
@@ -97,6 +98,13 @@ func test_the_recorder_writes_trace_events_of_the_stages() -> void:
 		)
 	)
 	check_near(columns.time_us[100] - columns.time_us[0], 100_000.0, 1.5, "a hundred ticks (µs)")
+	var early := 0
+	var uneven := 0
+	for row in range(1, columns.time_us.size()):
+		early += 1 if columns.ran_us[row] < columns.time_us[row] else 0
+		uneven += 1 if columns.ran_us[row] - columns.ran_us[row - 1] != 1000.0 else 0
+	check_equal(early, 0, "ticks that ran before they were due")
+	check(uneven > 0, "ran_us is the schedule")
 	var events: Array = JSON.parse_string(FileAccess.get_file_as_string(recorder.trace_path))
 	var names := {}
 	for event: Dictionary in events:

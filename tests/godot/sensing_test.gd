@@ -184,6 +184,79 @@ func test_what_is_found_can_be_touched() -> void:
 		check_near(contact[0].point.y, 0.1, 0.004, "top of the cube")
 
 
+## A cube that is touched from above with more than a newton; the world is not yet in real time.
+func _touched_cube(world: HapticWorld, sensor: DepthSensor) -> MeshInstance3D:
+	sensor.knows_support = true
+	sensor.bodies = DepthSensor.BODIES_HELD
+	var mesh := HapticMesh.create_library_mesh("cube")
+	var cube := _drawn(mesh, Vector3(0, 0.06, 0), world.get_node("Table"))
+	world.add_child(sensor)
+	check(
+		await until(func() -> bool: return _named(sensor, "cube").size() > 0, 60.0),
+		"it says: %s, and has %s" % [sensor.get_state_text(), sensor.get_objects()]
+	)
+	add_hand(world, path(Vector3(0, 0.2, 0), Vector3(0, 0.099, 0)), 0.005)
+	return cube
+
+
+## It is seen 4 mm higher, as where the camera was calibrated anew, and back. `tick` is called in each frame.
+func _see_elsewhere(sensor: DepthSensor, cube: MeshInstance3D, tick: Callable) -> void:
+	var height := func() -> float: return _named(sensor, "cube").transform.origin.y
+	var seen: float = height.call()
+	for up: float in [0.004, -0.004]:
+		cube.position.y += up
+		var is_seen_there := func() -> bool:
+			tick.call()
+			return absf(height.call() - seen - maxf(up, 0.0)) < 0.001
+		check(await until(is_seen_there, 60.0), "it is seen at %s" % height.call())
+		for _frame in 100:
+			tick.call()
+
+
+func test_what_is_seen_elsewhere_while_it_is_touched_is_no_kick() -> void:
+	var world := add_world()
+	var sensor := _sensor(world)
+	var cube := await _touched_cube(world, sensor)
+	var hand: ProxyPointer = world.get_node("Proxy")
+	world.advance(2.0)
+	check(hand.get_force().length() > 1.0, "nothing is touched: %s" % hand.get_state_text())
+	var worst := [0.0, hand.get_force()]
+	var tick := func() -> void:
+		world.advance(0.001)
+		worst[0] = maxf(worst[0], hand.get_force().distance_to(worst[1]))
+		worst[1] = hand.get_force()
+	await _see_elsewhere(sensor, cube, tick)
+	check(worst[0] <= 0.5, "%.2f N in a tick" % worst[0])
+
+
+func test_nor_is_it_in_real_time() -> void:
+	var world := add_world()
+	world.clock = HapticWorld.CLOCK_REAL_TIME
+	var sensor := _sensor(world)
+	var cube := await _touched_cube(world, sensor)
+	var hand: ProxyPointer = world.get_node("Proxy")
+	var is_touched := func() -> bool: return hand.get_force().length() > 1.0
+	check(await until(is_touched, 10.0), "nothing is touched: %s" % hand.get_state_text())
+	await frames(30)
+	var recorder := HapticRecorder.new()
+	recorder.proxy = NodePath("../Proxy")
+	recorder.csv_path = "user://seen_elsewhere_%d.csv" % OS.get_process_id()
+	world.add_child(recorder)
+	check(recorder.start(), "it does not record")
+	await _see_elsewhere(sensor, cube, func() -> void: pass)
+	await frames(30)
+	recorder.stop()
+	var rows := FileAccess.get_file_as_string(recorder.csv_path).strip_edges().split("\n")
+	DirAccess.remove_absolute(recorder.csv_path)
+	var worst := 0.0
+	for i in range(2, rows.size()):
+		var now := rows[i].split_floats(",")
+		var before := rows[i - 1].split_floats(",")
+		worst = maxf(worst, Vector3(now[1] - before[1], now[2] - before[2], now[3] - before[3]).length())
+	check(rows.size() > 100, "rows: %d" % rows.size())
+	check(worst <= 0.5, "%.2f N in a tick" % worst)
+
+
 func test_every_source_that_is_not_there_says_what_to_do() -> void:
 	var sensor := DepthSensor.new()
 	add_child(sensor)

@@ -392,3 +392,40 @@ func test_a_guided_path_is_measured_trial_by_trial_and_goes_on_after_a_crash() -
 		var path: String = study.file.folder.path_join("trial_%03d.csv" % number)
 		var ticks := FileAccess.get_file_as_string(path).count("\n") - 1
 		check(ticks > 2000, "ticks of trial %d: %d" % [number, ticks])
+
+
+func test_the_launcher_begins_a_study_and_goes_on_with_it() -> void:
+	var launcher := (load("res://launcher/launcher.tscn") as PackedScene).instantiate()
+	add_child(launcher)
+	launcher.choose_what("A study: the just-noticeable difference of stiffness")
+	var form := launcher.get_node("%StudyForm")
+	var start: Button = launcher.get_node("%Start")
+	form.set_line("folder", _folder)
+	for refused: Array in [
+		["participant", "Jane Doe"],
+		["reference", "abc"],
+		["trials", "19"],
+		["roving", "nan"],
+		["goes_on", "2"]
+	]:
+		var before: String = form._lines[refused[0]].text
+		form.set_line(refused[0], refused[1])
+		check(start.disabled and refused[1] in launcher.get_node("%Said").text, "%s is taken" % [refused])
+		form.set_line(refused[0], before)
+	form.set_line("participant", "P07")
+	form.set_line("seed_of_order", "7")
+	form.set_line("reference", "300")
+	check(not start.disabled, launcher.get_node("%Said").text)
+	for answers in 2:
+		start.pressed.emit()
+		var study: Node = launcher._study
+		check(study != null and not launcher.get_node("%Panel").visible, "it does not begin")
+		check_equal(study.trial, answers, "it goes on at the next trial")
+		check_equal([study.reference, study.seed_of_order, study.participant], [300.0, 7, "P07"], "settings")
+		study.answer(0)
+		launcher.get_node("%Stop").pressed.emit()
+		check("run_1" in launcher.get_node("%Said").text, launcher.get_node("%Said").text)
+		await frames(2)
+	var rows := _rows(_folder.path_join("stiffness/P07/run_1/stiffness_P07_1.csv"))
+	check_equal(rows.size(), 2, "answers")
+	launcher.free()

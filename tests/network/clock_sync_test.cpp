@@ -51,6 +51,38 @@ TEST(ClockSync, TheErrorIsAtMostHalfTheDelay) {
     EXPECT_LE(std::abs(sync.figures().offset + 7 * ms), sync.figures().uncertainty);
 }
 
+// However uneven the delays and whatever the drift, at each exchange and until the next one.
+TEST(ClockSync, TheOffsetIsRightToWithinWhatIsSaid) {
+    struct Ways {
+        double forth, back, jitter;  // (unit: milliseconds)
+    };
+    for (const Ways& ways : {Ways{100, 0, 0}, Ways{0, 100, 0}, Ways{50, 50, 20}, Ways{100, 0, 20},
+                             Ways{0, 40, 30}, Ways{5, 300, 100}, Ways{300, 1, 3}, Ways{1, 0, 0.5}}) {
+        for (const double drift : {-1e-3, -100e-6, 0.0, 20e-6, 500e-6}) {
+            ClockSync sync;
+            const ClockSkew far{0, 300 * ms, drift};
+            shared::RandomValues random(3);
+            const auto late = [&] { return ways.jitter * random.unit() * random.unit(); };
+            for (int i = 0; i < 600; ++i) {
+                const Nanoseconds start = (1000 + i * 200) * ms;
+                const auto forth = static_cast<Nanoseconds>((ways.forth + late()) * ms);
+                const auto back = static_cast<Nanoseconds>((ways.back + late()) * ms);
+                const ClockExchange made = exchange(far, start, forth, back);
+                ASSERT_TRUE(sync.add(made));
+                for (const Nanoseconds later : {Nanoseconds{0}, 100 * ms, 199 * ms}) {
+                    const Nanoseconds now = made.t3 + later;
+                    const ClockFigures figures = sync.figures_at(now);
+                    ASSERT_LE(std::abs(now + figures.offset - far.shown_at(now)), figures.uncertainty + 10)
+                        << ways.forth << ' ' << ways.back << ' ' << ways.jitter << ' ' << drift << ' ' << i;
+                }
+            }
+            EXPECT_EQ(sync.figures().jumps, 0u);
+            // It is no excuse either: both ends of what is possible are that far apart.
+            EXPECT_LT(sync.figures().uncertainty, sync.figures().least_delay + 3 * ms) << drift;
+        }
+    }
+}
+
 TEST(ClockSync, TheLeastDelayIsBelievedAgainstAHundredSlowOnes) {
     ClockSync sync;
     const ClockSkew far{0, 5 * ms, 0.0};

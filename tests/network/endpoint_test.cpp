@@ -416,6 +416,28 @@ TEST(SequenceWindow, ReachesExactlyItsLength) {
     EXPECT_EQ(window.missing(), 3 * SequenceWindow::length - 2);
 }
 
+TEST(SequenceWindow, WhatIsOvertakenIsCountedWhereItIsSettled) {
+    SequenceWindow window;
+    EXPECT_EQ(window.settled().sequence, 0u);
+    window.note(1);  // from where all are counted
+    std::uint64_t lost = 0;
+    for (std::uint64_t sequence = 1; sequence <= 10'000; sequence += 10) {
+        // Ten in the reverse order, of which each third ten have lost one.
+        for (std::uint64_t back = 10; back-- > 0;) {
+            const bool is_lost = back == 4 && sequence % 30 == 1;
+            if (!is_lost) {
+                window.note(sequence + back);
+            }
+        }
+        const SequenceWindow::Settled settled = window.settled();
+        if (settled.sequence > 0) {
+            lost = settled.sequence - settled.packets;
+            EXPECT_EQ(lost, (settled.sequence + 25) / 30) << settled.sequence;
+        }
+    }
+    EXPECT_GT(lost, 300u);
+}
+
 TEST(SequenceWindow, AgreesWithASetThroughDisorder) {
     SequenceWindow window;
     std::vector<bool> came(6000, false);

@@ -180,6 +180,75 @@ TEST(LinkEmulator, ATraceIsPlayedOverAndOver) {
     }
 }
 
+TEST(LinkEmulator, ACopyTakesAsLongAsTheTraceSays) {
+    const DelayTrace trace{{50 * ms, 60 * ms}};
+    LinkConditions conditions;
+    conditions.shape = JitterShape::trace;
+    conditions.trace = &trace;
+    conditions.duplication = 1.0;
+    const std::vector<Arrival> arrivals = run(conditions, 100);
+    EXPECT_EQ(arrivals.size(), 200u);
+    for (const Arrival& arrival : arrivals) {
+        EXPECT_EQ(arrival.arrived - arrival.sent, arrival.number % 2 == 0 ? 50 * ms : 60 * ms);
+    }
+}
+
+TEST(LinkEmulator, TheTraceGoesOnWithWhatIsLost) {
+    const DelayTrace trace{{10 * ms, 20 * ms, 30 * ms}};
+    LinkConditions conditions;
+    conditions.shape = JitterShape::trace;
+    conditions.trace = &trace;
+    conditions.loss = 0.5;
+    for (const Arrival& arrival : run(conditions, 300)) {
+        EXPECT_EQ(arrival.arrived - arrival.sent, (1 + arrival.number % 3) * 10 * ms);
+    }
+}
+
+TEST(LinkEmulator, TheLongestDelayLosesNothing) {
+    MemoryLinkPair pair(1 << 10);
+    LinkConditions conditions;
+    conditions.delay = 10'000 * ms;
+    LinkEmulator emulator(pair.second(), conditions, 1);
+    std::array<std::byte, max_datagram_bytes> buffer{};
+    std::uint64_t arrived = 0;
+    for (int tick = 0; tick < 22'000; ++tick) {
+        if (tick < 11'000) {
+            pair.first().send(std::span(buffer).first(200), tick * ms);
+            pair.first().send(std::span(buffer).first(200), tick * ms);
+        }
+        while (emulator.receive(buffer, tick * ms)) {
+            ++arrived;
+        }
+    }
+    EXPECT_EQ(arrived, 22'000u);
+    EXPECT_EQ(emulator.counts().no_room, 0u);
+}
+
+TEST(LinkEmulator, BothWaysOfASeedAndTheNextSeedHaveLuckOfTheirOwn) {
+    LinkConditions conditions;
+    conditions.loss = 0.5;
+    const auto came = [&](std::uint64_t seed) {
+        std::vector<double> found(10'000, 0.0);
+        for (const Arrival& arrival : run(conditions, 10'000, seed)) {
+            found[arrival.number] = 1.0;
+        }
+        return found;
+    };
+    const std::vector<std::uint64_t> seeds{luck_of(1, Way::to_teleoperator), luck_of(1, Way::to_operator),
+                                           luck_of(2, Way::to_teleoperator), luck_of(2, Way::to_operator)};
+    for (std::size_t i = 0; i < seeds.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            const std::vector<double> one = came(seeds[i]), other = came(seeds[j]);
+            double sum = 0.0;
+            for (std::size_t k = 0; k < one.size(); ++k) {
+                sum += (one[k] - 0.5) * (other[k] - 0.5);
+            }
+            // Four standard deviations of no correlation.
+            EXPECT_NEAR(sum / 10'000.0 / 0.25, 0.0, 0.04) << i << " and " << j;
+        }
+    }
+}
+
 TEST(LinkEmulator, JitterDisordersUnlessToldToKeepOrder) {
     const auto is_ordered = [](const std::vector<Arrival>& arrivals) {
         return std::is_sorted(arrivals.begin(), arrivals.end(),
@@ -252,9 +321,10 @@ TEST(LinkEmulator, DoublesItsShare) {
     EXPECT_NEAR(static_cast<double>(counts.duplicated), 1000.0, 120.0);
 }
 
+// With the headers of UDP and IPv4 a datagram of 100 bytes has 128.
 TEST(LinkEmulator, TheNarrowPlaceLetsItsRatePassAndDropsTheRest) {
     LinkConditions conditions;
-    conditions.rate = 400'000.0;  // half of the 800 kbit/s that are sent
+    conditions.rate = 512'000.0;  // half of the 1024 kbit/s that are sent
     conditions.max_waiting = 50 * ms;
     EmulatorCounts counts;
     const auto arrivals = run(conditions, 4000, 1, ms, 100, &counts);
@@ -270,7 +340,7 @@ TEST(LinkEmulator, ALoneDatagramTakesTheTimeOfItsBits) {
     conditions.rate = 1e6;
     const auto arrivals = run(conditions, 10, 1, 100 * ms, 1000);
     for (const Arrival& arrival : arrivals) {
-        EXPECT_EQ(arrival.arrived - arrival.sent, 8 * ms);
+        EXPECT_EQ(arrival.arrived - arrival.sent, 8'224'000);
     }
 }
 
@@ -284,12 +354,12 @@ TEST(LinkEmulator, WhatIsUnderWayIsBounded) {
         pair.first().send(std::span(buffer).first(10), 0);
     }
     EXPECT_FALSE(emulator.receive(buffer, 0));
-    EXPECT_EQ(emulator.counts().no_room, 85u);
+    EXPECT_EQ(emulator.counts().no_room, 84u);
     int arrived = 0;
     while (emulator.receive(buffer, 1000 * ms)) {
         ++arrived;
     }
-    EXPECT_EQ(arrived, 15);
+    EXPECT_EQ(arrived, 16);
 }
 
 TEST(LinkEmulator, ConditionsMayChangeWhileDatagramsAreUnderWay) {
@@ -329,6 +399,27 @@ TEST(LinkEmulator, ATickAllocatesLocksAndAsksForNothing) {
     EXPECT_EQ(audit.allocations() + audit.frees() + audit.locks() + audit.waits() + audit.system_calls(), 0u)
         << audit.describe();
     EXPECT_GT(emulator.counts().delivered, 1000u);
+}
+
+TEST(LinkConditions, WhatIsNotAsItReadsIsSaid) {
+    LinkConditions conditions;
+    conditions.delay = 10 * ms;
+    conditions.jitter = 10 * ms;
+    EXPECT_TRUE(notes_on(conditions, 0.5, 1.0).empty());
+    EXPECT_EQ(notes_on(conditions, 0.9, 1.0).size(), 1u);
+    conditions.jitter = 30 * ms;
+    conditions.keep_order = true;
+    const std::vector<std::string> notes = notes_on(conditions, 0.0, 5.0);
+    ASSERT_EQ(notes.size(), 2u);
+    EXPECT_NE(notes[0].find("the mean is 13.3 ms"), std::string::npos) << notes[0];
+    conditions.keep_order = false;
+    conditions.delay = 50 * ms;
+    conditions.jitter = 20 * ms;
+    conditions.shape = JitterShape::normal;
+    const std::vector<std::string> normal = notes_on(conditions, 0.0, 5.0);
+    ASSERT_EQ(normal.size(), 1u);
+    const double told = std::stod(normal[0].substr(normal[0].find("mean is ") + 8));
+    EXPECT_NEAR(told, mean(delays_ms(run(conditions, 20'000))), 0.4);
 }
 
 TEST(DelayTrace, ReadsMillisecondsLossesAndComments) {

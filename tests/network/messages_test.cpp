@@ -165,7 +165,8 @@ TEST(Messages, EveryRefusalHasItsReason) {
     EXPECT_EQ(refusal_of(with(1, 'S')), Refusal::sealed);
     EXPECT_EQ(refusal_of(with(2, 0)), Refusal::wrong_version);
     EXPECT_EQ(refusal_of(with(3, 0)), Refusal::unknown_type);
-    EXPECT_EQ(refusal_of(with(3, 14)), Refusal::unknown_type);
+    constexpr int one_too_many = static_cast<int>(std::variant_size_v<Message>) + 1;
+    EXPECT_EQ(refusal_of(with(3, one_too_many)), Refusal::unknown_type);
     EXPECT_EQ(refusal_of(Bytes(max_message_bytes + 1)), Refusal::wrong_magic);
     Bytes long_one = good;
     long_one.resize(max_message_bytes + 1);
@@ -248,13 +249,48 @@ TEST(Messages, AFragmentThatIsNotWhereItSaysIsRefused) {
 // The bytes that docs/wire_format.md describes, for a second implementation to read: tests/tools reads them.
 TEST(Messages, AreTheBytesOfThePublishedVectors) {
     std::map<std::string, std::string> published = samples::published_vectors();
-    const char* names[] = {
-        "hello",   "bye",         "clock_request", "clock_answer",     "discovery_fragment",
-        "removal", "acknowledge", "object_states", "operator_samples", "forces",
-        "ghosts",  "estimates",   "wrenches",      "tool_samples"};
+    const char* names[] = {"hello",
+                           "bye",
+                           "clock_request",
+                           "clock_answer",
+                           "discovery_fragment",
+                           "removal",
+                           "acknowledge",
+                           "object_states",
+                           "operator_samples",
+                           "forces",
+                           "ghosts",
+                           "estimates",
+                           "wrenches",
+                           "sample_acknowledgements",
+                           "terms",
+                           "tool_samples"};
     const std::vector<Message> messages = samples::one_of_each();
     for (std::size_t i = 0; i < messages.size(); ++i) {
         EXPECT_EQ(published[names[i]], samples::hex(encoded(messages[i]))) << names[i];
+    }
+}
+
+// Who does not know it passes over it: it is behind the last field.
+TEST(Messages, ForcesTellEnergyInAnExtension) {
+    ForceSamples forces = samples::force(2.0);
+    const Bytes without = encoded(forces);
+    forces.samples[0].taken = told_energy(12.5);
+    const Bytes with = encoded(forces);
+    ASSERT_EQ(with.size(), without.size() + 2 + sizeof(std::uint32_t));
+    EXPECT_TRUE(std::equal(without.begin(), without.end(), with.begin()));
+    Packet packet;
+    ASSERT_EQ(decode(with, packet), Refusal::none);
+    EXPECT_EQ(std::get<ForceSamples>(packet.message).samples[0].taken, 125'000'000u);
+    ASSERT_EQ(decode(without, packet), Refusal::none);
+    EXPECT_EQ(std::get<ForceSamples>(packet.message).samples[0].taken, 0u);
+}
+
+TEST(Messages, AnOlderReaderHearsAllThatItKnows) {
+    for (const Message& message : samples::one_of_each()) {
+        const bool is_new =
+            std::holds_alternative<Terms>(message) || std::holds_alternative<SampleAcknowledgements>(message);
+        EXPECT_EQ(encoded(message)[2], std::byte{static_cast<unsigned char>(is_new ? 4 : 3)});
     }
 }
 

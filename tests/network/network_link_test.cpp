@@ -83,6 +83,8 @@ TEST(NetworkLink, MeetsThroughSocketEmulationAndKey) {
         EXPECT_GE(rig.near.statistics().clock.least_delay, 60 * ms);
         EXPECT_TRUE(rig.run_until([&] { return rig.near_link.figures().emulator.delivered > 0; }));
         EXPECT_EQ(rig.near_link.figures().udp.sealed, *key != '\0');
+        EXPECT_EQ(rig.near_link.figures().sealing() > 0, *key != '\0');
+        EXPECT_EQ(28 + rig.near_link.figures().sealing(), rig.near_link.overhead()) << "of IPv4 and UDP";
         EXPECT_TRUE(rig.run_until([&] { return rig.near_link.figures().udp.met == (*key != '\0'); }));
     }
 }

@@ -56,6 +56,20 @@ TEST(ObjectDescription, SurvivesTheWire) {
     EXPECT_EQ(encode_description(read), bytes) << "every field, in every kind of shape";
 }
 
+TEST(ObjectDescription, CitizenHolesOfAHeightFieldSurviveTheWire) {
+    ObjectDescription sent;
+    sent.object = 3;
+    sent.body.shapes.push_back({HeightFieldShape{3, 2, Vec3(1.0),
+                                                 std::make_shared<const std::vector<float>>(
+                                                     std::vector<float>{0, hole_height, 1, 2, 3, 4})},
+                                {}});
+    ObjectDescription read;
+    ASSERT_EQ(decode_description(encode_description(sent), read), Refusal::none);
+    const auto& field = std::get<HeightFieldShape>(read.body.shapes.front().shape);
+    EXPECT_EQ((*field.heights)[1], hole_height);
+    EXPECT_EQ(encode_description(read), encode_description(sent));
+}
+
 TEST(ObjectDescription, ABareOneSurvivesToo) {
     ObjectDescription sent;
     sent.object = 0;

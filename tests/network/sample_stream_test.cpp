@@ -182,7 +182,7 @@ TEST(SampleStream, AskingWhetherLessHelpsLosesLittle) {
 TEST(SampleStream, LossesThatSendingLessMakesFewerAreHeeded) {
     LinkConditions narrow;
     narrow.delay = 10 * ms;
-    narrow.rate = 500'000.0;
+    narrow.rate = 640'000.0;
     narrow.max_waiting = 3 * ms;
     StreamRig rig(narrow);
     rig.run(18'000 * ms);

@@ -6,6 +6,7 @@
 
 #include <cstring>
 #include <thread>
+#include <utility>
 
 #include "network/endpoint.hpp"
 #include "network/link_emulator.hpp"
@@ -202,6 +203,67 @@ TEST(UdpLink, AllAddressesOfANameAreTried) {
         second.send(bytes(4, 2), 0);
         return static_cast<bool>(first.receive(buffer, 0));
     }));
+}
+
+bool has_ip6() {
+    UdpLink link;
+    UdpSettings settings;
+    settings.local_address = settings.remote_address = "::1";
+    settings.remote_port = 9;
+    return link.open(settings).empty();
+}
+
+// One machine, one side set to ::1 and the other to 127.0.0.1.
+TEST(UdpLink, TheLoopbacksOfBothFamiliesMeet) {
+    if (!has_ip6()) {
+        GTEST_SKIP() << "this machine has no IPv6";
+    }
+    for (const bool six_opens_first : {true, false}) {
+        const std::uint16_t port = free_port();
+        UdpLink six, four;
+        UdpSettings settings = to(port);
+        settings.local_address.clear();
+        settings.remote_address = "::1";
+        if (six_opens_first) {
+            ASSERT_EQ(six.open(settings), "");
+            ASSERT_EQ(four.open(to(six.local_port(), port)), "");
+        } else {
+            settings.local_port = free_port();
+            ASSERT_EQ(four.open(to(settings.local_port, port)), "");
+            ASSERT_EQ(six.open(settings), "");
+        }
+        std::array<std::byte, max_datagram_bytes> buffer{};
+        EXPECT_TRUE(eventually([&] {
+            six.send(bytes(4, 2), 0);
+            return static_cast<bool>(four.receive(buffer, 0));
+        }));
+        EXPECT_TRUE(eventually([&] {
+            four.send(bytes(4, 2), 0);
+            return static_cast<bool>(six.receive(buffer, 0));
+        }));
+    }
+}
+
+TEST(UdpLink, AddressesOfTwoKindsAreNamedAsTheMistakeThatTheyAre) {
+    UdpLink link;
+    UdpSettings settings;
+    settings.remote_port = 9;
+    for (const auto& [local, remote] : {std::pair{"::1", "127.0.0.1"}, std::pair{"127.0.0.1", "fe80::1"}}) {
+        settings.local_address = local;
+        settings.remote_address = remote;
+        const std::string error = link.open(with_secret(settings));
+        EXPECT_NE(error.find("or give both of one kind"), std::string::npos) << error;
+    }
+}
+
+// A local address that is none is still named as that.
+TEST(UdpLink, ALocalAddressThatIsNoneIsNotOneOfAnotherKind) {
+    UdpLink link;
+    UdpSettings settings;
+    settings.remote_port = 9;
+    settings.remote_address = "127.0.0.1";
+    settings.local_address = "fe80::zz";
+    EXPECT_NE(link.open(settings).find("is not known"), std::string::npos);
 }
 
 // So many at a stretch that they are too fast on average where a nap takes a clock's whole period, too.

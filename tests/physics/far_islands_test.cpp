@@ -92,6 +92,79 @@ TEST(FarIslands, NoStepMovesMoreThanTheFullRateAndATurn) {
     EXPECT_LE(most, 64u + 400u / 16u);
 }
 
+// A floor of 20 mm, and bodies that go 50 mm in a long step.
+TEST(FarIslands, WhatIsSlowedDoesNotFallThrough) {
+    for (const double size : {0.01, 0.04}) {
+        PhysicsWorld world(limited(64));
+        BodyDescription floor = box({20.0, 0.02, 20.0}, {0.0, -0.01, 0.0}, 1.0);
+        floor.motion = Motion::Static;
+        add(world, floor);
+        std::vector<BodyId> ids;
+        for (int i = 0; i < 300; ++i)
+            ids.push_back(add(
+                world, ball(size, {0.12 * (i % 20), 0.5 + size, 0.12 * static_cast<double>(i / 20)}, 0.05)));
+        std::size_t slowed = 0;
+        for (int i = 0; i < 1000; ++i) {
+            world.step(tick);
+            slowed = std::max(slowed, world.slowed_count());
+        }
+        EXPECT_GT(slowed, 200u);
+        for (const BodyId id : ids)
+            ASSERT_NEAR(world.pose(id).position.y, size, 1e-3) << size;
+    }
+}
+
+// Their speed asks for more than one step of 16 ms, but not for each.
+TEST(FarIslands, WhatMovesSlowlyTakesEveryFourthStep) {
+    Field field(200, 64);
+    field.throw_all({1.0, 0.0, 0.0});
+    run(field.world, 60);
+    EXPECT_GE(field.world.slowed_count(), 100u);
+    int moved_first = 0;
+    int moved_last = 0;
+    for (int i = 0; i < 32; ++i) {
+        const double first = field.place(0).x;
+        const double last = field.place(199).x;
+        field.world.step(tick);
+        moved_first += field.place(0).x != first ? 1 : 0;
+        moved_last += field.place(199).x != last ? 1 : 0;
+    }
+    EXPECT_EQ(moved_first, 32);
+    EXPECT_EQ(moved_last, 8);
+}
+
+// Without slip after 2/7 of its speed is gone, whichever steps it takes.
+TEST(FarIslands, SlowedBallsRollAsTheyWouldAlone) {
+    PhysicsWorld world(limited(64));
+    add(world, ground());
+    std::vector<BodyId> ids;
+    for (int i = 0; i < 200; ++i) {
+        BodyDescription body = ball(0.04, {0.3 * (i % 16), 0.04, 0.3 * static_cast<double>(i / 16)}, 0.5);
+        body.material.friction = 0.5;
+        body.linear_velocity = {0.7, 0.0, 0.0};
+        ids.push_back(add(world, body));
+    }
+    run(world, 500);
+    EXPECT_GE(world.slowed_count(), 100u);
+    for (const BodyId id : ids) {
+        EXPECT_NEAR(world.linear_velocity(id).x, 0.5, 0.005);
+        EXPECT_NEAR(world.angular_velocity(id).z * -0.04, 0.5, 0.005);
+    }
+}
+
+// What slides stops where it would alone, within 1 %, whichever steps it takes.
+TEST(FarIslands, FastOnesEndWhereTheyWouldAlone) {
+    Field crowd(200, 64);
+    Field alone(1, 64);
+    for (Field* field : {&crowd, &alone}) {
+        field->throw_all({1.0, 0.0, 0.0});
+        run(field->world, 600);
+    }
+    const double way = alone.place(0).x;
+    for (std::size_t i = 0; i < 200; ++i)
+        EXPECT_NEAR(crowd.place(i).x - 0.2 * static_cast<double>(i % 16), way, 0.01 * way) << i;
+}
+
 // Explicit Euler with steps of 16 ms instead of one is behind or ahead by g t 16 ms / 2.
 TEST(FarIslands, WhatIsSlowedFallsAsFarInTheSameTime) {
     Field field(200, 64, 5.05);

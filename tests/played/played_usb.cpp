@@ -414,6 +414,11 @@ void PlayedUsb::press(unsigned buttons) {
     impl_->falcon.press(buttons);
 }
 
+void PlayedUsb::lie(stand_ins::Field field, stand_ins::Lie lie) {
+    const std::lock_guard lock(impl_->mutex);
+    impl_->falcon.lie(field, lie);
+}
+
 Vec3 PlayedUsb::hand() {
     const std::lock_guard lock(impl_->mutex);
     impl_->falcon.advance(monotonic_now());

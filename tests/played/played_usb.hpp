@@ -38,6 +38,7 @@ public:
     // Of the arm, at any time and from any thread.
     void mean(const Vec3& place);
     void press(unsigned buttons);
+    void lie(stand_ins::Field field, stand_ins::Lie lie);
     Vec3 hand();
     Vec3 force();
     double take_most_step();  // see PlayedFalcon

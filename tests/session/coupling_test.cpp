@@ -225,8 +225,9 @@ TEST(Coupling, ABoxSqueezedAgainstAWallRests) {
     EXPECT_EQ(feel.lost, 0);
 }
 
-// Rolling between finger and ground without slipping. The fingertip, of radius r, sticks to one point of the
-// ball, of radius R: when the ball has gone x and turned x / R, its centre is at x + (R + r) sin(x / R).
+// Rolling between finger and ground without slipping. The fingertip, of radius r, does not turn: its center
+// goes as the point of the ball, of radius R, that it touches. With p the angle of that point from the top
+// (R + r) dp = R dx / R, so that when the ball has gone x, the finger is at x + (R + r) sin(x / (R + r)).
 TEST(Coupling, ABallRollsUnderTheFinger) {
     Table table;
     BodyAddition ball = thing(SphereShape{0.02}, {0.0, 0.02, 0.0}, 0.05);
@@ -248,7 +249,7 @@ TEST(Coupling, ABallRollsUnderTheFinger) {
     }
     EXPECT_EQ(feel.lost, 0);
     const double x = table.pose(handle).position.x - start;
-    EXPECT_NEAR(x + (0.02 + radius) * std::sin(x / 0.02), 0.015, 2e-4);
+    EXPECT_NEAR(x + (0.02 + radius) * std::sin(x / (0.02 + radius)), 0.015, 2e-4);
     EXPECT_LE(feel.noise(), 0.02);
     EXPECT_NEAR(table.pose(handle).position.z, 0.0, 1e-6);
 }

@@ -39,7 +39,7 @@ void play_with_boxes(SessionRig& rig, RecordedInputs& inputs, int ticks) {
     rig.session.settle();
     for (int i = 0; i < ticks; ++i) {
         rig.device.position = hand_at(i);
-        rig.tick();
+        rig.session.tick(rig.now += period, nullptr, i % 7 * 10'000);
         if (i % 16 == 15) {
             rig.session.collect();
             inputs.drain();
@@ -65,7 +65,7 @@ TEST(InputReplay, AnotherHandIsNotTheSame) {
     rig.ticks(100);
     inputs.drain();
     // A tick of which the outcome is not what was heard.
-    inputs.recorder.begin_tick(rig.now + period, 0);
+    inputs.recorder.begin_tick({rig.now + period, 0});
     inputs.recorder.note_reading(rig.hand, {}, {});
     inputs.recorder.end_tick(42);
     inputs.end();
@@ -93,9 +93,11 @@ TEST(InputReplay, TheRowsThatWereWrittenDownAreTheSame) {
     });
     ASSERT_EQ(now.size(), then.size());
     EXPECT_EQ(now.size(), 500u);
+    EXPECT_EQ(now[6].ran - now[6].time, 60'000);
     EXPECT_TRUE(std::ranges::equal(then, now, [](const SessionRecord& a, const SessionRecord& b) {
-        return a.time == b.time && a.force == b.force && a.proxy_position == b.proxy_position &&
-               a.object_position == b.object_position && a.contacts == b.contacts;
+        return a.time == b.time && a.ran == b.ran && a.force == b.force &&
+               a.proxy_position == b.proxy_position && a.object_position == b.object_position &&
+               a.contacts == b.contacts;
     }));
 }
 

@@ -3,8 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <clocale>
 #include <limits>
+
+#include "support/comma_locale.hpp"
 
 namespace tactus::record_csv_test {
 namespace {
@@ -44,6 +45,15 @@ TEST(RecordCsv, WritesMicrosecondsAndNineDecimals) {
         row(sample()).starts_with("1234567,1.500000000,-2.250000000,0.000000001,0.100000000,0.200000000,"));
 }
 
+TEST(RecordCsv, EndsWithTheForceThatWasDisplayedWhenTheTickRanAndWhyItWasCut) {
+    SessionRecord record = sample();
+    record.displayed = {0.5, 0.0, -8.0};
+    record.ran = record.time + 70'000;
+    record.cuts = 5;
+    EXPECT_TRUE(row(record).ends_with(",0.500000000,0.000000000,-8.000000000,1234637,5\n"));
+    EXPECT_TRUE(record_csv_header().ends_with(",displayed_x,displayed_y,displayed_z,ran_us,force_cut\n"));
+}
+
 TEST(RecordCsv, CountsFromTheEpoch) {
     EXPECT_TRUE(row(sample(), 1'700'000'000 * nanoseconds_per_second).starts_with("1700000001234567,"));
 }
@@ -60,12 +70,13 @@ TEST(RecordCsv, WritesWhatIsNotANumberAsSuch) {
     EXPECT_TRUE(row(record).starts_with("1234567,nan,inf,1e+300,"));
 }
 
-TEST(RecordCsv, WritesTheSameBytesInALocaleWithDecimalCommas) {
+TEST(RecordCsv, CitizenWritesTheSameBytesInALocaleWithDecimalCommas) {
     const std::string expected = row(sample());
-    const std::string before = std::setlocale(LC_NUMERIC, nullptr);
-    std::setlocale(LC_NUMERIC, "de_DE.UTF-8");
+    const testing::CommaLocale german;
+    if (!testing::CommaLocale::is_in_force()) {
+        GTEST_SKIP() << "no locale with decimal commas is here, and none can be made";
+    }
     EXPECT_EQ(row(sample()), expected);
-    std::setlocale(LC_NUMERIC, before.c_str());
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <limits>
 
+#include "core/math/body_motion.hpp"
 #include "session_rig.hpp"
 
 namespace tactus::session_hands_test {
@@ -90,6 +91,40 @@ TEST(Session, AWallThatADeviceCannotBearIsAsStiffAsItCan) {
     }
 }
 
+// A wall that was not safe is told of until another one is pressed, or until the scale is another one.
+TEST(Session, AWallThatWasNotSafeIsNotSaidForEver) {
+    for (const bool is_scaled_back : {true, false}) {
+        SessionRig rig;
+        const SessionHandle floor = rig.add(ground());
+        Workspace workspace;
+        workspace.force_limit = 1e6;
+        workspace.scale = 1000.0;
+        rig.session.set_workspace(rig.hand, workspace);
+        rig.device.can.feels = true;
+        rig.device.can.damping = 1.0;
+        rig.device.position = {0.0, 1e-4, 0.0};
+        const auto used = [&rig] {
+            rig.session.refresh();
+            return rig.session.snapshot().devices[0].stiffness_used;
+        };
+        rig.tick();
+        rig.draw({0.0, -1e-5, 0.0}, 50);
+        EXPECT_NEAR(used(), 2.0, 1e-9) << "of 500 N/m";
+        rig.draw({0.0, 1e-4, 0.0}, 50);
+        EXPECT_NEAR(used(), 2.0, 1e-9) << "as long as nothing else is pressed";
+        if (is_scaled_back) {
+            workspace.scale = 1.0;
+            rig.session.set_workspace(rig.hand, workspace);
+            rig.tick();
+            EXPECT_EQ(used(), 0.0);
+        } else {
+            rig.session.set_touch_material(floor, {1.0, 0.0, 0.0, 0.0});
+        }
+        rig.draw({0.0, -1e-5, 0.0}, 50);
+        EXPECT_EQ(used(), 0.0);
+    }
+}
+
 TEST(Session, AHandThatHasJumpedIsNotPushed) {
     SessionRig rig;
     rig.add(ground());
@@ -152,6 +187,77 @@ TEST(Session, AReadingOfWhichOneFieldMakesNoSenseGivesNoForce) {
             before = rig.device.force.y;
         }
         EXPECT_NEAR(before, 4.0, 1e-6) << i;
+    }
+}
+
+// What a field says may be a number and be wrong: it leaps, repeats itself, or nothing new comes at all. In
+// two ticks the force has gone; then it grows, also where what was said stays.
+TEST(Session, AFieldThatLeapsOrRepeatsItselfGivesNoForceAndItGrowsAgain) {
+    struct Lie {
+        const char* name;
+        void (*tell)(HeldDevice&);
+        HandState state;
+    };
+    const Lie lies[] = {
+        {"position leaps", [](HeldDevice& d) { d.position.x += 0.02; }, HandState::jumped},
+        {"velocity leaps", [](HeldDevice& d) { d.velocity.z = 6.0; }, HandState::jumped},
+        {"rotation leaps", [](HeldDevice& d) { d.rotation = Quat(0.0, 1.0, 0.0, 0.0); }, HandState::jumped},
+        {"buttons leap", [](HeldDevice& d) { d.buttons = 0; }, HandState::released},
+        {"position is frozen", [](HeldDevice& d) { d.velocity.x = 1.0; }, HandState::frozen},
+        {"velocity is frozen", [](HeldDevice& d) { d.velocity.y = -0.6; }, HandState::frozen},
+        {"nothing new", [](HeldDevice& d) { d.connected = false; }, HandState::disconnected},
+    };
+    for (const Lie& lie : lies) {
+        SessionRig rig;
+        rig.add(ground());
+        Workspace workspace;
+        workspace.force_limit = 1e6;
+        workspace.dead_man = 1;
+        rig.session.set_workspace(rig.hand, workspace);
+        rig.device.can.feels = rig.device.can.rotates = true;
+        rig.device.can.ramp = 0.1;
+        rig.device.can.max_slew = 4000.0;
+        rig.device.can.max_speed = 5.0;
+        rig.device.buttons = 1;
+        rig.device.position = {0.0, 0.1, 0.0};
+        rig.tick();
+        rig.draw({0.0, 0.002, 0.0}, 500);
+        ASSERT_NEAR(rig.device.force.y, 4.0, 1e-6) << lie.name;
+        lie.tell(rig.device);
+        rig.ticks(2);
+        const bool is_passing = lie.state == HandState::jumped && rig.device.velocity == Vec3(0.0);
+        if (!is_passing) {
+            EXPECT_EQ(rig.device.force, Vec3(0.0)) << lie.name;
+            EXPECT_EQ(rig.newest().devices[0].safety, lie.state) << lie.name;
+        }
+        EXPECT_LE(rig.device.force.y, 0.05) << lie.name << ": a ramp begins anew";
+        rig.device.velocity = Vec3(0.0);
+        rig.device.buttons = 1;
+        rig.device.connected = true;
+        double before = rig.device.force.y;
+        for (int tick = 0; tick < 200; ++tick) {
+            rig.tick();
+            EXPECT_LE(rig.device.force.y - before, 0.05) << lie.name;
+            before = rig.device.force.y;
+        }
+        EXPECT_NEAR(before, 4.0, 1e-6) << lie.name;
+    }
+}
+
+// Rotations come seldom from a grip without a cable, and are no leaps.
+TEST(Session, AHandleThatTurnsFastIsPushed) {
+    SessionRig rig;
+    rig.add(ground());
+    rig.device.can.feels = rig.device.can.rotates = true;
+    rig.device.position = {0.0, 0.1, 0.0};
+    rig.tick();
+    rig.draw({0.0, 0.002, 0.0}, 500);
+    for (int tick = 0; tick < 200; ++tick) {
+        if (tick % 10 == 0) {
+            rig.device.rotation = turn_by(Vec3(0.0, 0.0, 40.0), 0.001 * tick);
+        }
+        rig.tick();
+        ASSERT_NEAR(rig.device.force.y, 4.0, 1e-6) << tick;
     }
 }
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "session/session.hpp"
 
@@ -19,7 +20,9 @@ public:
     void write(Nanoseconds, const Vec3& given) override { force = given; }
     void twist(const Vec3& given) override { torque = given; }
     DeviceCapabilities capabilities() const override { return can; }
+    std::optional<DisplayedForce> displayed() const override { return shown; }
 
+    std::optional<DisplayedForce> shown;  // as a driver's last stage would know
     DeviceCapabilities can;
     Vec3 position{0.0};
     Quat rotation{1.0, 0.0, 0.0, 0.0};

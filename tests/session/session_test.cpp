@@ -1,7 +1,10 @@
 #include "session/session.hpp"
 
+#include <cmath>
 #include <deque>
+#include <glm/geometric.hpp>
 #include <limits>
+#include <vector>
 
 #include "session_rig.hpp"
 
@@ -129,6 +132,62 @@ TEST(Session, RecordsEveryTickOldestFirstAndCountsWhatIsLost) {
     ring.drain([](const SessionRecord&) {});
     rig.ticks(5);
     EXPECT_EQ(ring.drain([](const SessionRecord&) {}), 0u);
+}
+
+TEST(Session, ARecordHasWhatIsAskedForAndWhatIsDisplayed) {
+    SessionRig rig;
+    rig.add(ground());
+    RecorderRing<SessionRecord> ring(1024);
+    rig.session.record(ring, rig.proxy, no_handle);
+    rig.device.position = {0.0, 0.05, 0.0};
+    rig.ticks(10);
+    Workspace workspace;
+    workspace.force_limit = 2.0;
+    rig.session.set_workspace(rig.hand, workspace);
+    rig.device.position = {0.0, -0.01, 0.0};
+    rig.ticks(500);
+    SessionRecord last;
+    ring.drain([&](const SessionRecord& row) { last = row; });
+    EXPECT_NEAR(last.force.y, 10.0, 0.1);
+    EXPECT_NEAR(last.displayed.y, 2.0, 1e-9);
+    EXPECT_EQ(last.displayed, rig.device.force);
+}
+
+// In the scene's measure and directions, as the force that was asked for.
+TEST(Session, ARecordHasWhatADriverDisplaysAndWhyItWasCut) {
+    SessionRig rig;
+    RecorderRing<SessionRecord> ring(64);
+    rig.session.record(ring, rig.proxy, no_handle);
+    Workspace workspace;
+    workspace.pose.rotation = Quat(std::sqrt(0.5), 0.0, 0.0, std::sqrt(0.5));
+    workspace.force_scale = 2.0;
+    rig.session.set_workspace(rig.hand, workspace);
+    rig.device.shown = DisplayedForce{{4.0, 0.0, 0.0}, 0};
+    rig.tick();
+    rig.device.shown = DisplayedForce{Vec3(0.0), 5};
+    rig.tick();
+    rig.device.shown.reset();
+    rig.tick();
+    std::vector<SessionRecord> rows;
+    ring.drain([&](const SessionRecord& row) { rows.push_back(row); });
+    ASSERT_EQ(rows.size(), 3u);
+    EXPECT_LT(glm::distance(rows[0].displayed, Vec3(0.0, 2.0, 0.0)), 1e-12);
+    EXPECT_EQ(rows[0].cuts, 0u);
+    EXPECT_EQ(rows[1].displayed, Vec3(0.0));
+    EXPECT_EQ(rows[1].cuts, 5u);
+    EXPECT_EQ(rows[2].cuts, 0u);
+}
+
+TEST(Session, ARecordOfAPointerWithoutADeviceHasNothingDisplayed) {
+    Session session({});
+    const SessionHandle proxy = session.add_proxy({}).handle;
+    RecorderRing<SessionRecord> ring(64);
+    session.record(ring, proxy, no_handle);
+    session.tick(period);
+    SessionRecord last;
+    last.displayed = Vec3(1.0);
+    EXPECT_EQ(ring.drain([&](const SessionRecord& row) { last = row; }), 1u);
+    EXPECT_EQ(last.displayed, Vec3(0.0));
 }
 
 TEST(Session, SeveralRecordingsGoOnSideBySide) {

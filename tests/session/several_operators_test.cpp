@@ -207,6 +207,8 @@ TEST(SeveralOperators, OneHasNoPointerOfAnother) {
     const Vec3 others = rig.far.snapshot().proxies[1].hand;
     rig.near[0].reset();
     Endpoint liar(rig.wires[0].first(), endpoint(Side::operator_side, 55));
+    Terms terms;
+    terms.bodies = 1000;
     for (SampleSequence sequence = 1; sequence < 1500; ++sequence) {
         liar.begin_tick(rig.now);
         while (liar.receive() != nullptr) {
@@ -222,6 +224,7 @@ TEST(SeveralOperators, OneHasNoPointerOfAnother) {
         }
         liar.send(message);
         liar.end_tick();
+        liar.send(terms);
         rig.tick();
     }
     EXPECT_LT(glm::distance(rig.far.snapshot().proxies[0].hand, Vec3(0.5)), 1e-3) << "its own follows";

@@ -151,6 +151,24 @@ struct Says {
             }
         }
     }
+    void operator()(Terms& m) {
+        m.scenario = static_cast<std::uint8_t>(1 + dice.below(5));
+        m.passivity = static_cast<std::uint8_t>(dice.below(6));
+        m.impedance = m.passivity == Terms::with_waves ? dice.size(max_impedance) : 0.0;
+        m.bodies = static_cast<std::uint32_t>(dice.number() % no_object);
+        for (HandTerms& hand : m.hands) {
+            hand.kind = static_cast<HandTerms::Kind>(dice.below(3));
+            hand.radius = 1e-3 * static_cast<double>(dice.below(20));
+            hand.shape = static_cast<std::uint64_t>(dice.number());
+        }
+    }
+    void operator()(SampleAcknowledgements& m) {
+        m.count = static_cast<std::uint8_t>(1 + dice.below(SampleAcknowledgements::max_count));
+        for (std::size_t i = 0; i < m.count; ++i) {
+            m.samples[i].pointer = static_cast<std::uint16_t>(dice.below(first_tool + 6));
+            m.samples[i].sequence = std::min(sample(), plausible::max_sequence);
+        }
+    }
     void operator()(WrenchSamples& m) {
         m.count = static_cast<std::uint8_t>(1 + dice.below(WrenchSamples::max_count));
         for (std::size_t i = 0; i < m.count; ++i) {
@@ -389,6 +407,8 @@ std::string kind_name(std::size_t kind) {
                                      "ghosts",
                                      "estimates",
                                      "wrenches",
+                                     "sample_acknowledgements",
+                                     "terms",
                                      "bodies",
                                      "joints"};
     return names[kind];

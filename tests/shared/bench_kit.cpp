@@ -96,9 +96,12 @@ bool Report::write_json(const std::filesystem::path& path) const {
     }
     std::error_code failed;
     std::filesystem::create_directories(path.parent_path(), failed);
-    std::FILE* const file = std::fopen(path.string().c_str(), "w");
+    // The results of before stay until these are whole.
+    std::filesystem::path partial = path;
+    partial += ".partial";
+    std::FILE* const file = std::fopen(partial.string().c_str(), "w");
     if (!file) {
-        std::perror(path.string().c_str());
+        std::perror(partial.string().c_str());
         return false;
     }
     const char* separator = "{\n";
@@ -107,7 +110,13 @@ bool Report::write_json(const std::filesystem::path& path) const {
         separator = ",\n";
     }
     std::fputs("\n}\n", file);
-    return std::fclose(file) == 0;
+    const bool failed_before = std::ferror(file) != 0;
+    if (std::fclose(file) != 0 || failed_before) {
+        std::perror(partial.string().c_str());
+        return false;
+    }
+    std::filesystem::rename(partial, path, failed);
+    return !failed;
 }
 
 std::filesystem::path result_path(std::string_view name) {

@@ -128,6 +128,14 @@ private:
 
 }  // namespace
 
+std::string refusal(const WatchedDevice& watched, double rate) {
+    DriverDevice device(watched.driver());
+    device.set_pace({from_seconds(1.0 / rate), true});
+    wait_until([&] { return device.health().phase == DriverHealth::Phase::running; });
+    const std::string said = device.health().text;
+    return said.find("gives no force") != std::string::npos ? said : std::string();
+}
+
 DisplayedFigures play_displayed(const WatchedDevice& watched, const DisplayedCase& c) {
     DisplayedFigures figures;
     std::vector<double> writes, p50, p99;

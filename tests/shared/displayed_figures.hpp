@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 
 #include "devices/driver_device.hpp"
 
@@ -36,6 +37,10 @@ struct DisplayedFigures {
     double write_p50_us = 0.0, write_p99_us = 0.0;  // that Device::write() takes of the loop's time
     double return_step_max = 0.0;                   // of the force after the loop has stopped (unit: newtons)
 };
+
+// Why the device gives no force at that rate of the loop (unit: hertz), as it says itself; empty: it gives
+// one.
+std::string refusal(const WatchedDevice& watched, double rate);
 
 DisplayedFigures play_displayed(const WatchedDevice& watched, const DisplayedCase& c);
 

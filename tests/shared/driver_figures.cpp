@@ -52,7 +52,7 @@ struct OverFloor {
 
 AsLoop::AsLoop() : granted_(make_thread_realtime(loop_request())) {
     if (granted_.cpu != any_processor) {
-        awake_.start(granted_.cpu);
+        awake_.start(granted_.cpu, {.lead = AwakeTimes{}.period});
     }
 }
 

@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "core/math/types.hpp"
+#include "stand_ins/stand_ins.hpp"
 
 namespace tactus::shared {
 
@@ -58,6 +59,12 @@ public:
     std::uint16_t port() const { return port_; }
     void drop() { tell("drop\n"); }
     void go_mad() { tell("mad\n"); }
+    void lie(stand_ins::Field field, stand_ins::Lie lie) {
+        constexpr const char* fields[] = {"position", "velocity", "rotation", "buttons"};
+        constexpr const char* lies[] = {"none", "no_number", "infinite", "leaps", "frozen", "silent"};
+        tell(std::string("lie ") + fields[static_cast<int>(field)] + " " + lies[static_cast<int>(lie)] +
+             "\n");
+    }
     // The newest force that it was told, in its axes.
     std::string force() {
         for (pollfd file{from_, POLLIN, 0}; poll(&file, 1, 0) > 0 && (file.revents & POLLIN) != 0;) {
@@ -66,14 +73,17 @@ public:
         return force_;
     }
 
-    // The same, and the longest step between two that came since the last call (unit: newtons), in our axes.
+    // The same, in our axes, and the longest step of a force that grows since the last call (unit: newtons).
     Vec3 newest_force() {
         for (pollfd file{from_, POLLIN, 0}; poll(&file, 1, 0) > 0 && (file.revents & POLLIN) != 0;) {
             force_ = line();
             Vec3 theirs;
             std::sscanf(force_.c_str(), "%lf %lf %lf", &theirs.x, &theirs.y, &theirs.z);
             const Vec3 ours(theirs.x, theirs.z, -theirs.y);
-            most_step_ = std::max(most_step_, glm::distance(ours, std::exchange(newest_, ours)));
+            const Vec3 before = std::exchange(newest_, ours);
+            if (glm::length(ours) > glm::length(before)) {
+                most_step_ = std::max(most_step_, glm::distance(ours, before));
+            }
         }
         return newest_;
     }

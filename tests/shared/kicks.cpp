@@ -102,13 +102,17 @@ constexpr bool is_of_the_hand(KickCase kick) {
     return kick == KickCase::hands || kick == KickCase::workspace || kick == KickCase::tool;
 }
 
+constexpr bool is_between_floors(KickCase kick) {
+    return kick == KickCase::crosses || kick == KickCase::drags;
+}
+
 class KickPlay {
 public:
     KickPlay(KickCase kick, std::uint64_t seed) : kick_(kick), random_(seed * 8 + static_cast<int>(kick)) {
         radius_ = random_.magnitude(0.002, 0.03);
         size_ = radius_ * random_.magnitude(1.5, 12.0);
         stiffness_ = random_.magnitude(200.0, 5000.0);
-        form_ = kick == KickCase::squeezed || kick == KickCase::crosses
+        form_ = kick == KickCase::squeezed || is_between_floors(kick)
                     ? Form{BoxShape{Vec3(1.0, 0.2, 1.0) * size_}, {}, true}
                     : random_form(random_, size_);
         if (kick == KickCase::squeezed && random_.flip()) {
@@ -196,7 +200,9 @@ private:
     void give_back();
     void approach();
     void squeeze();
+    SessionHandle add_floor(double half, double side, double height, double stiffness);
     void cross();
+    void drag();
     void leave_and_come_back();
     Pose near_hand(double farthest);
     double pace() const { return hand_step / std::max(stiffness_, stiffest_); }
@@ -447,6 +453,7 @@ void KickPlay::event() {
             break;
         case KickCase::squeezed:
         case KickCase::crosses:
+        case KickCase::drags:
             break;
     }
 }
@@ -481,21 +488,21 @@ void KickPlay::squeeze() {
     judged_ = true;
 }
 
+SessionHandle KickPlay::add_floor(double half, double side, double height, double stiffness) {
+    BodyAddition floor =
+        body({BoxShape{Vec3(half)}, {}, true},
+             {Vec3(side * half, height - half, 0.0), Quat(1.0, 0.0, 0.0, 0.0)}, Motion::Static);
+    floor.touch_material = material(stiffness);
+    return session_.add_body(floor).handle;
+}
+
 // From a floor to another one beside it, or against a wall that stands on it, and back.
 void KickPlay::cross() {
     const double other = random_.magnitude(100.0, 5000.0);
     stiffest_ = 2.0 * std::max(stiffness_, other);  // over an edge the proxy goes farther than the hand
     const double step = random_.flip() ? 0.0 : random_.between(0.1, 4.0) * radius_;
-    const auto add_floor = [&](double side, double height, double stiffness) {
-        const double half = 5.0 * size_;
-        BodyAddition floor =
-            body({BoxShape{Vec3(half)}, {}, true},
-                 {Vec3(side * half, height - half, 0.0), Quat(1.0, 0.0, 0.0, 0.0)}, Motion::Static);
-        floor.touch_material = material(stiffness);
-        session_.add_body(floor);
-    };
-    add_floor(-1.0, 0.0, stiffness_);
-    add_floor(1.0, step, other);
+    add_floor(5.0 * size_, -1.0, 0.0, stiffness_);
+    add_floor(5.0 * size_, 1.0, step, other);
     const double pressed = random_.between(0.5, 6.0) / stiffness_;
     const double far = 2.0 * radius_ + 3.0 * pressed;
     hand_.position = {-far, 2.0 * radius_, 0.0};
@@ -504,6 +511,36 @@ void KickPlay::cross() {
         ++figures_.events;
         draw({-far, radius_ - pressed, 0.0});
         draw({far, radius_ - pressed, random_.between(-1.0, 1.0) * radius_});
+        wait(60);
+    }
+}
+
+// To and fro over the border of two floors, of which one becomes another one on the way.
+void KickPlay::drag() {
+    friction_ = 0.0;
+    const double other = random_.magnitude(100.0, 5000.0);
+    stiffest_ = 5000.0;
+    const SessionHandle floors[] = {add_floor(1.0, -1.0, 0.0, stiffness_), add_floor(1.0, 1.0, 0.0, other)};
+    const double step = 1e-3 * random_.magnitude(0.05, 1.5);
+    const double far = std::max(0.1, 2.0 * radius_);
+    const double deep = std::min(random_.magnitude(1.0, 60.0) / stiffest_, 0.9 * radius_);
+    hand_.position = {-far, 2.0 * radius_, 0.0};
+    tick(hand_.position);
+    draw({-far, radius_ - deep, 0.0});
+    for (int round = 0; round < 4; ++round) {
+        const double to = hand_.position.x < 0.0 ? far : -far;
+        const double changes_at = random_.flip() ? random_.between(-far, far) : 2.0 * far;
+        for (bool has_changed = false; hand_.position.x != to;) {
+            const double x = hand_.position.x;
+            tick({to > 0.0 ? std::min(to, x + step) : std::max(to, x - step), hand_.position.y, 0.0});
+            if (!has_changed && std::abs(hand_.position.x - changes_at) <= step) {
+                has_changed = true;
+                ++figures_.events;
+                session_.set_touch_material(floors[random_.below(2)],
+                                            material(random_.magnitude(100.0, 5000.0)));
+            }
+        }
+        ++figures_.events;
         wait(60);
     }
 }
@@ -533,8 +570,12 @@ void KickPlay::leave_and_come_back() {
 
 KickFigures KickPlay::play() {
     friction_ = random_.flip() ? 0.0 : random_.between(0.1, 1.0);
-    if (kick_ == KickCase::squeezed || kick_ == KickCase::crosses) {
-        kick_ == KickCase::squeezed ? squeeze() : cross();
+    if (kick_ == KickCase::squeezed) {
+        squeeze();
+        return figures_;
+    }
+    if (is_between_floors(kick_)) {
+        kick_ == KickCase::crosses ? cross() : drag();
         return figures_;
     }
     hand_.position = (3.0 * size_ + 2.0 * radius_) * random_.direction();
@@ -561,9 +602,9 @@ KickFigures KickPlay::play() {
 }  // namespace
 
 std::string_view name_of(KickCase kick) {
-    constexpr std::string_view names[] = {"appears",  "teleports", "grows",   "squeezed",
-                                          "vanishes", "stiffens",  "deforms", "crosses",
-                                          "hands",    "workspace", "tool",    "seen"};
+    constexpr std::string_view names[] = {"appears",  "teleports", "grows",   "squeezed", "vanishes",
+                                          "stiffens", "deforms",   "crosses", "hands",    "workspace",
+                                          "tool",     "seen",      "drags"};
     return names[static_cast<std::size_t>(kick)];
 }
 

@@ -3,7 +3,7 @@
 // no room; the sphere grows; a material changes; a mesh deforms; pointers come, go and change hands; the
 // device's workspace is put elsewhere; all that to a tool in place of a sphere; a camera sees a body
 // elsewhere than it was. And a hand that only drags, from one surface to another one that is as much softer
-// or stiffer as can be.
+// or stiffer as can be: slowly over edges with friction, or as fast as a hand goes.
 #pragma once
 
 #include <cstdint>
@@ -24,12 +24,13 @@ enum class KickCase {
     workspace,
     tool,
     seen,
+    drags,
 };
 
-inline constexpr KickCase kick_cases[] = {KickCase::appears,   KickCase::teleports, KickCase::grows,
-                                          KickCase::squeezed,  KickCase::vanishes,  KickCase::stiffens,
-                                          KickCase::deforms,   KickCase::crosses,   KickCase::hands,
-                                          KickCase::workspace, KickCase::tool,      KickCase::seen};
+inline constexpr KickCase kick_cases[] = {
+    KickCase::appears,  KickCase::teleports, KickCase::grows,   KickCase::squeezed, KickCase::vanishes,
+    KickCase::stiffens, KickCase::deforms,   KickCase::crosses, KickCase::hands,    KickCase::workspace,
+    KickCase::tool,     KickCase::seen,      KickCase::drags};
 
 std::string_view name_of(KickCase kick);
 
@@ -49,7 +50,8 @@ struct KickFigures {
     void add(const KickFigures& other);
 };
 
-// One seeded run. The hand moves so slowly that its own way changes the force by at most 0.1 N a tick.
+// One seeded run. The hand moves so slowly that its own way changes the force by at most 0.1 N a tick; in
+// KickCase::drags it goes along a plane without friction, which changes none.
 KickFigures play_kick(KickCase kick, std::uint64_t seed);
 
 }  // namespace tactus::shared

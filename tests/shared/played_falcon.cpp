@@ -132,11 +132,16 @@ void PlayedFalcon::write(std::span<const std::uint8_t> bytes, Nanoseconds now) {
         }
         commanded_ = now;
         const Vec3 asked = motor_force(delta_pose(settings_.data.geometry, place_));
-        most_step_ = std::max(most_step_, glm::distance(asked, std::exchange(asked_, asked)));
+        const Vec3 was_asked = std::exchange(asked_, asked);
+        if (glm::length(asked) > glm::length(was_asked)) {
+            most_step_ = std::max(most_step_, glm::distance(asked, was_asked));
+        }
         next_report_ = std::max(next_report_ + packet_time, now);
         ++exchanges_;
         const FalconPacket packet = falcon_encode(report());
-        answer(packet, next_report_);
+        if (lie_ != stand_ins::Lie::is_silent) {
+            answer(packet, next_report_);
+        }
     }
 }
 
@@ -170,6 +175,13 @@ FalconReport PlayedFalcon::report() {
     }
     report.buttons = static_cast<std::uint8_t>(buttons_ & 0xfu);
     report.homed = static_cast<std::uint8_t>(homed_);
+    if (lying_field_ == stand_ins::Field::buttons) {
+        report.buttons ^= lie_ == stand_ins::Lie::leaps ? 0xf : 0;
+    } else if (lie_ == stand_ins::Lie::leaps) {
+        report.encoders[0] = static_cast<std::int16_t>(report.encoders[0] + 500);
+    } else if (lie_ == stand_ins::Lie::no_number || lie_ == stand_ins::Lie::infinite) {
+        report.encoders[0] = 32'767;  // where no arm is
+    }
     return report;
 }
 

@@ -12,6 +12,7 @@
 #include "devices/falcon/falcon_arm.hpp"
 #include "devices/falcon/falcon_packet.hpp"
 #include "shared/random_values.hpp"
+#include "stand_ins/stand_ins.hpp"
 
 namespace tactus::shared {
 
@@ -45,6 +46,11 @@ public:
     // homed, he pulls it out and pushes it in.
     void mean(const Vec3& place) { meant_ = place; }
     void press(unsigned buttons) { buttons_ = buttons; }
+    // Of its reports: encoders stand for position, velocity and rotation, of which a Falcon has one alone.
+    void lie(stand_ins::Field field, stand_ins::Lie lie) {
+        lying_field_ = field;
+        lie_ = lie;
+    }
     void advance(Nanoseconds now);
 
     bool running() const { return stage_ == Stage::running; }
@@ -55,7 +61,7 @@ public:
     Nanoseconds let_go_at() const { return let_go_at_; }
     bool is_let_go() const { return command_.torques == std::array<std::int16_t, 3>{}; }
     std::uint64_t exchanges() const { return exchanges_; }
-    // Of the force, from one packet to the next, since the last call (unit: newtons).
+    // Of a force that grows, from one packet to the next, since the last call (unit: newtons).
     double take_most_step() { return std::exchange(most_step_, 0.0); }
     void power_cycle();
 
@@ -92,6 +98,8 @@ private:
     Vec3 asked_{0.0};  // by the last packet (unit: newtons)
     double most_step_ = 0.0;
     unsigned buttons_ = 0;
+    stand_ins::Field lying_field_ = stand_ins::Field::position;
+    stand_ins::Lie lie_ = stand_ins::Lie::none;
     unsigned homed_ = 0;
     unsigned pulled_out_ = 0;
     Vec3 meant_{0.0};

@@ -13,6 +13,7 @@ namespace tactus::shared {
 // An engine's body. It outlives the mirror's view of it, PlayedBody.
 struct Prop {
     std::uint64_t id = 1;
+    std::uint64_t carrier = 0;
     bool is_there = true, is_in_scene = true, is_rigid = true;
     SceneFrame frame;
     SceneSpeed speed;
@@ -51,9 +52,10 @@ public:
     bool can_be_thrown() const override { return prop_.is_rigid; }
     SceneFrame frame() const override { return prop_.frame; }
     SceneSpeed speed() const override { return prop_.speed; }
-    BodyMakings makings() const override { return prop_.makings; }
+    std::uint64_t carrier() const override { return prop_.carrier; }
+    BodyMakings makings(const Mat3&) const override { return prop_.makings; }
     ShapeKey shape_key() const override { return prop_.key; }
-    BodyForm form() const override {
+    BodyForm form(const Mat3&) const override {
         ++prop_.forms_read;
         return prop_.form;
     }
@@ -74,6 +76,10 @@ public:
         prop_.frame.origin = Vec3(glm::vec3(pose.position));
         prop_.when_moved();
         return prop_.frame;
+    }
+    SceneFrame put_back(const SceneFrame& frame) override {
+        prop_.frame = frame;
+        return frame;
     }
     void say(const std::string& problem) const override {
         if (!problem.empty()) {

@@ -195,6 +195,10 @@ private:
         }
         near_.send(said);
         near_.end_tick();
+        Terms terms;
+        terms.scenario = static_cast<std::uint8_t>(scenario_of(scenario()));
+        terms.bodies = 1000;
+        near_.send(terms);
         for (Session* const session : {&far_, &place_}) {
             session->tick(now_);
             session->collect();

@@ -115,6 +115,14 @@ inline std::vector<Message> one_of_each() {
     felt.object = 300;
     felt.stiffness = {512.0, 8.0, true};
     felt.friction = {0.25, 0.03125, true};
+    Terms terms;
+    terms.scenario = 3;
+    terms.passivity = 1;
+    terms.impedance = 4.5;
+    terms.bodies = 300;
+    terms.hands[0] = {HandTerms::Kind::fingertip, 0.0105, 0};
+    terms.hands[2] = {HandTerms::Kind::fingertip, 0.005, 0};
+    terms.hands[first_tool] = {HandTerms::Kind::tool, 0.0, 0x0102030405060708u};
     return {
         Hello{
             Side::teleoperator_side, 2, 1'000'000, 0x1122334455667788u, 9, {0.0, -9.5, 0.25}, 2, 3, 300, 321},
@@ -130,6 +138,8 @@ inline std::vector<Message> one_of_each() {
         Ghosts{2, {Ghost{1, true, {0.5, -1.25, 2.0}, 0.01}, Ghost{3, false, {0.0, 0.125, -3.0}, 0.0055}}},
         ObjectEstimates{2, {seen, felt}},
         wrenches,
+        SampleAcknowledgements{2, {SampleAcknowledgement{1, 300}, SampleAcknowledgement{17, 5}}},
+        terms,
         tools,
     };
 }

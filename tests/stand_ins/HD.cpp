@@ -8,6 +8,9 @@
 
 namespace {
 
+using tactus::stand_ins::Field;
+using tactus::stand_ins::Lie;
+
 tactus::stand_ins::OpenHaptics device;
 constexpr unsigned the_one = 7, the_second = 8;  // that one by its name alone
 
@@ -33,7 +36,7 @@ void* tick(void*) {
         const timespec span{0, 1'000'000};
         nanosleep(&span, nullptr);
         for (const Task& task : tasks) {
-            if (task.callback != nullptr && !device.hangs) {
+            if (task.callback != nullptr && !device.hangs && !device.lying.is_silent()) {
                 task.callback(task.data);
             }
         }
@@ -59,6 +62,9 @@ STAND_IN unsigned hdInitDevice(const char* name) {
         return ~0u;
     }
     check(!device.ticks);
+    if (name != nullptr && std::strcmp(name, "Missing") == 0) {
+        return ~0u;
+    }
     if (name != nullptr && std::strcmp(name, "Second") == 0) {
         return the_second;
     }
@@ -93,16 +99,18 @@ STAND_IN void hdGetDoublev(unsigned what, double* values) {
             for (int i = 0; i < 3; ++i) {
                 values[i] = device.position[i];
             }
+            values[0] = device.lying.told(Field::position, values[0], values[0] + 30.0);
             return;
         case 0x2051:
             check(in_frame);
-            values[0] = values[1] = values[2] = 0.0;
+            values[1] = values[2] = 0.0;
+            values[0] = 1e3 * device.lying.velocity();
             return;
-        case 0x2052:  // a quarter turn about z, by columns
+        case 0x2052:  // a quarter turn about z, by columns; a leap is half a turn more
             check(in_frame);
             std::memset(values, 0, 16 * sizeof(double));
-            values[1] = 1.0;
-            values[4] = -1.0;
+            values[1] = device.lying.told(Field::rotation, 1.0, -1.0);
+            values[4] = -values[1];
             values[10] = values[15] = 1.0;
             return;
         case 0x2551: {
@@ -131,7 +139,9 @@ STAND_IN void hdGetIntegerv(unsigned what, int* value) {
         *value = device.has_six_motors ? 6 : 3;
         return;
     }
-    *value = what == 0x2000 ? device.buttons.load() : what == 0x2600 ? 1000 : 1;
+    const bool leaps = device.lying.field == Field::buttons && device.lying.lie == Lie::leaps;
+    const int buttons = leaps ? ~device.buttons.load() : device.buttons.load();
+    *value = what == 0x2000 ? buttons : what == 0x2600 ? 1000 : 1;
 }
 STAND_IN const char* hdGetString(unsigned what) {
     check(what == 0x2501 || what == 0x2504);
@@ -168,6 +178,7 @@ STAND_IN void hdStartScheduler() {
 }
 STAND_IN void hdStopScheduler() {
     if (device.ticks.exchange(false)) {
+        ++device.stops;
         pthread_join(ticking, nullptr);
         for (int i = 0; i < 3; ++i) {
             device.force[i] = device.second_force[i] = 0.0;

@@ -1,12 +1,22 @@
 // Stands in for Force Dimension's libdhd.
 #include <time.h>
 
+#include <cstring>
+
 #include "stand_ins/stand_ins.hpp"
 
 namespace {
 
+using tactus::stand_ins::Field;
+using tactus::stand_ins::Lie;
+
 tactus::stand_ins::ForceDimension device;
 constexpr char the_one = 0;
+
+bool fails(const char* function) {
+    const char* const name = device.fails;
+    return name != nullptr && std::strcmp(name, function) == 0;
+}
 
 // 0, or an error where the call is out of place.
 int checked(char id, bool is_in_place = true) {
@@ -14,9 +24,14 @@ int checked(char id, bool is_in_place = true) {
     device.wrong_calls += right ? 0 : 1;
     return right && !device.unplugged ? 0 : -1;
 }
+// The same, of a function that may be made to fail.
+int result_of(const char* function, char id, bool is_in_place = true) {
+    const int result = checked(id, is_in_place);
+    return fails(function) ? -1 : result;
+}
 
 void wait_while_hung() {
-    while (device.hangs) {
+    while (device.hangs || device.lying.is_silent()) {
         const timespec span{0, 1'000'000};
         nanosleep(&span, nullptr);
     }
@@ -44,6 +59,9 @@ STAND_IN int dhdOpenID(char id) {
 STAND_IN int dhdClose(char id) {
     const int result = checked(id);
     device.is_open = device.forces_on = false;
+    for (auto& one : device.force) {
+        one = 0.0;
+    }
     return result;
 }
 STAND_IN int dhdGetSystemType(char id) {
@@ -54,21 +72,23 @@ STAND_IN const char* dhdGetSystemName(char id) {
 }
 STAND_IN int dhdEnableForce(unsigned char on, char id) {
     device.forces_on = on != 0;
-    return checked(id);
+    return result_of("dhdEnableForce", id);
 }
 STAND_IN int dhdGetPosition(double* x, double* y, double* z, char id) {
     wait_while_hung();
     *x = device.position[0];
-    *y = device.position[1];
+    *y = device.lying.told(Field::position, device.position[1], device.position[1] + 0.03);
     *z = device.position[2];
-    return checked(id);
+    return result_of("dhdGetPosition", id);
 }
 STAND_IN int dhdGetLinearVelocity(double* x, double* y, double* z, char id) {
-    *x = *y = *z = 0.0;
-    return checked(id) == 0 ? 1 : -1;  // asked too soon after the last time: no error
+    *x = *z = 0.0;
+    *y = device.lying.velocity();
+    return result_of("dhdGetLinearVelocity", id) == 0 ? 1
+                                                      : -1;  // asked too soon after the last time: no error
 }
 STAND_IN int dhdSetForce(double x, double y, double z, char id) {
-    const int result = checked(id, device.forces_on);
+    const int result = result_of("dhdSetForce", id, device.forces_on);
     if (result == 0) {
         tactus::stand_ins::set_force(device.force, device.most_step, x, y, z);
         device.braked = false;
@@ -83,13 +103,14 @@ STAND_IN int dhdHasActiveWrist(char id) {
     return dhdHasWrist(id);
 }
 STAND_IN int dhdGetOrientationFrame(double rows[3][3], char id) {
-    const double turn[3][3] = {{1.0, 0.0, 0.0}, {0.0, 0.0, -1.0}, {0.0, 1.0, 0.0}};
+    const double way = device.lying.told(Field::rotation, 1.0, -1.0);  // a leap is half a turn about x
+    const double turn[3][3] = {{1.0, 0.0, 0.0}, {0.0, 0.0, -way}, {0.0, way, 0.0}};
     for (int row = 0; row < 3; ++row) {
         for (int column = 0; column < 3; ++column) {
             rows[row][column] = turn[row][column];
         }
     }
-    return checked(id, device.has_wrist);
+    return result_of("dhdGetOrientationFrame", id, device.has_wrist);
 }
 STAND_IN int dhdSetForceAndTorqueAndGripperForce(double x, double y, double z, double tx, double ty,
                                                  double tz, double grip, char id) {
@@ -105,7 +126,8 @@ STAND_IN int dhdSetWatchdog(unsigned char time, char id) {
     return checked(id);
 }
 STAND_IN unsigned dhdGetButtonMask(char id) {
-    return checked(id) == 0 ? device.buttons.load() : 0u;
+    const bool leaps = device.lying.field == Field::buttons && device.lying.lie == Lie::leaps;
+    return checked(id) == 0 ? (leaps ? ~device.buttons.load() : device.buttons.load()) : 0u;
 }
 STAND_IN int dhdSetGravityCompensation(int, char id) {
     return checked(id);

@@ -4,7 +4,7 @@ only after the last has been answered with a force.
     haply_service.py [silent|nonsense|uncalibrated]
 
 Prints its port, then each force that is another one, as "x y z". A line on stdin: "drop" closes the connection, "mad"
-makes nonsense of all it says from now on over this one.
+makes nonsense of all it says from now on over this one, "lie FIELD MANNER" lets one field of its states lie.
 """
 
 import base64
@@ -18,6 +18,27 @@ import sys
 import time
 
 GUID = "258EAFA5-E914-47DA-95CA-C5AB0DC85B11"
+
+
+# A number that is none is written as null, as by the library that the real one uses.
+WRONG = {"no_number": None, "infinite": 1e300}
+
+
+def lying(told: dict, field: str, manner: str) -> dict:
+    """The state, of which a field is wrong, leaps, or is frozen and no longer fits another one."""
+    hand, grip = told["inverse3"][0]["state"], told["wireless_verse_grip"][0]["state"]
+    if field == "position":
+        moved = {"no_number": None, "infinite": 1e300, "leaps": hand["cursor_position"]["x"] + 0.03}
+        hand["cursor_position"]["x"] = moved.get(manner, hand["cursor_position"]["x"])
+    moves = manner == "frozen" and field in ("position", "velocity")
+    hand["cursor_velocity"] = {"x": 1.5 if moves else 0.0, "y": 0.0, "z": 0.0}
+    if field == "velocity":
+        hand["cursor_velocity"]["x"] = (WRONG | {"leaps": 1e3}).get(manner, hand["cursor_velocity"]["x"])
+    if field == "rotation":
+        grip["orientation"]["z"] = (WRONG | {"leaps": -grip["orientation"]["z"]}).get(manner, grip["orientation"]["z"])
+    if field == "buttons" and manner == "leaps":
+        grip["buttons"] = {name: not held for name, held in grip["buttons"].items()}
+    return told
 
 
 def state(calibrated: bool) -> dict:
@@ -99,21 +120,25 @@ def force_of(text: str) -> tuple[float, float, float]:
     return tuple(round(command["vector"][axis], 3) + 0.0 for axis in "xyz")
 
 
-def serve(client: socket.socket, manner: str) -> None:
+def serve(client: socket.socket, manner: str, lie: list[str]) -> None:
     shake_hands(client)
     last = None
     while True:
-        if manner != "silent":
-            client.sendall(frame("{]" if manner == "nonsense" else json.dumps(state(manner != "uncalibrated"))))
+        if manner != "silent" and lie[1:] != ["silent"]:
+            told = state(manner != "uncalibrated")
+            client.sendall(frame("{]" if manner == "nonsense" else json.dumps(lying(told, *lie) if lie else told)))
         while True:
             readable, _, _ = select.select([client, sys.stdin], [], [], 0.05)
             if sys.stdin in readable:
                 said = os.read(sys.stdin.fileno(), 100)
                 if not said:
                     sys.exit(0)
-                if said != b"mad\n":
+                if said.startswith(b"lie "):
+                    lie[:] = said.split(b"\n")[-2].decode().split()[1:]
+                elif said == b"mad\n":
+                    manner = "nonsense"
+                else:
                     return
-                manner = "nonsense"
             if client not in readable:
                 break  # no answer yet: it is told again, as the real one does at its own pace
             text = message(client)
@@ -128,14 +153,19 @@ def serve(client: socket.socket, manner: str) -> None:
 def main(manner: str) -> None:
     listener = socket.create_server(("127.0.0.1", 0))
     print(listener.getsockname()[1], flush=True)
+    lie: list[str] = []
     while True:
         readable, _, _ = select.select([listener, sys.stdin], [], [])
-        if sys.stdin in readable and not os.read(sys.stdin.fileno(), 100):
-            return
+        if sys.stdin in readable:
+            said = os.read(sys.stdin.fileno(), 100)
+            if not said:
+                return
+            if said.startswith(b"lie "):
+                lie[:] = said.split(b"\n")[-2].decode().split()[1:]
         if listener in readable:
             client, _ = listener.accept()
             try:
-                serve(client, manner)
+                serve(client, manner, lie)
             except (ConnectionError, OSError):
                 pass
             client.close()

@@ -8,15 +8,50 @@
 
 namespace tactus::stand_ins {
 
-// The force of `force` becomes that: `most_step` notes how far it jumps.
+// The force of `force` becomes that: `most_step` notes how far it jumps where it grows. It may go at once.
 inline void set_force(std::atomic<double> (&force)[3], std::atomic<double>& most_step, double x, double y,
                       double z) {
     const double step = std::hypot(x - force[0], y - force[1], z - force[2]);
-    most_step = std::max(most_step.load(), step);
+    if (std::hypot(x, y, z) > std::hypot(force[0], force[1], force[2])) {
+        most_step = std::max(most_step.load(), step);
+    }
     force[0] = x;
     force[1] = y;
     force[2] = z;
 }
+
+// One field of a device's reading, and what it says instead of the truth.
+enum class Field { position, velocity, rotation, buttons, count };
+enum class Lie { none, no_number, infinite, leaps, is_frozen, is_silent, count };
+
+struct Lying {
+    std::atomic<Field> field{Field::position};
+    std::atomic<Lie> lie{Lie::none};
+
+    // A value of that field; `leapt`: where it leaps to.
+    double told(Field of, double truth, double leapt) const {
+        if (field != of) {
+            return truth;
+        }
+        switch (lie.load()) {
+            case Lie::no_number:
+                return std::nan("");
+            case Lie::infinite:
+                return HUGE_VAL;
+            case Lie::leaps:
+                return leapt;
+            default:
+                return truth;
+        }
+    }
+    // Where a position or a velocity is frozen, both no longer fit together (unit: meters per second).
+    double velocity() const {
+        const bool moves = field == Field::position || field == Field::velocity;
+        return told(Field::velocity, moves && lie == Lie::is_frozen ? 1.5 : 0.0, 1e3);
+    }
+    // The library does not come back.
+    bool is_silent() const { return lie == Lie::is_silent; }
+};
 
 // Of libdhd. One device, "omega.3".
 struct ForceDimension {
@@ -28,13 +63,16 @@ struct ForceDimension {
     std::atomic<bool> has_wrist{false};  // with motors, a quarter turn about its x
     std::atomic<int> watchdog{0};        // of its firmware (in eighths of a millisecond)
     std::atomic<unsigned> buttons{0};
+    Lying lying;
+    std::atomic<const char*> fails{nullptr};  // the function that returns an error, by its name
     std::atomic<bool> is_open{false}, forces_on{false}, braked{false};
     std::atomic<int> set_forces{0};
     std::atomic<double> most_step{0.0};  // of the force from one call to the next (unit: newtons)
     std::atomic<int> wrong_calls{0};     // with another device, before it is open, without forces enabled
 };
 
-// Of libHD. One device, and a second one named "Second", of which only the force is told apart.
+// Of libHD. One device, and a second one named "Second", of which only the force is told apart; one named
+// "Missing" is not there.
 struct OpenHaptics {
     std::atomic<bool> unplugged{false}, hangs{false};
     std::atomic<unsigned> calibration{0x5000};
@@ -44,8 +82,9 @@ struct OpenHaptics {
     std::atomic<double> second_force[3]{};
     std::atomic<bool> has_six_motors{false};
     std::atomic<int> buttons{0};
+    Lying lying;
     std::atomic<bool> is_open{false}, ticks{false};
-    std::atomic<int> frames{0};
+    std::atomic<int> frames{0}, stops{0};
     std::atomic<double> most_step{0.0};  // of the force from one frame to the next (unit: newtons)
     std::atomic<int> wrong_calls{0};     // outside of a frame, of another device, unknown names
 };

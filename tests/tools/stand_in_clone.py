@@ -14,7 +14,8 @@ import uuid
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-COPIED = ["run", "SConstruct", "CHANGELOG.md", "README.md", "LICENSE", "docs", "tools", "site_scons", "tests/bench", "extension", "demo_project"]
+PAPERS = ["CHANGELOG.md", "README.md", "LICENSE", "CITATION.cff", "CONTRIBUTING.md", "SECURITY.md", "CODE_OF_CONDUCT.md"]
+COPIED = ["run", "SConstruct", *PAPERS, "docs", "tools", "site_scons", "tests/bench", "extension", "demo_project"]
 LEFT_OUT = shutil.ignore_patterns(".godot", "bin", "__pycache__", "*.cpp~")
 
 # Waits where its name is among WAITS, else does what `otherwise` says.

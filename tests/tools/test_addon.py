@@ -1,5 +1,6 @@
 """What a user does with the addon: copies its folder into another project, wherever they like."""
 
+import re
 import shutil
 import subprocess
 import zipfile
@@ -152,7 +153,10 @@ def test_the_archive_names_what_is_in_it(own_project):
         assert (folder / name).is_file(), name
     for work in ("Jolt Physics", "libsodium", "GLM", "Godot Engine"):
         assert work in (folder / "NOTICES.txt").read_text()
+    assert ("OpenNI2" in (folder / "NOTICES.txt").read_text()) == any("sensing" in path.name for path in (folder / "bin").iterdir())
+    assert "AVX2" in "".join((folder / "README.md").read_text().splitlines()[:12])
     assert addon.version() in (folder / "CHANGELOG.md").read_text()
+    assert f'version="{addon.version()}"' in (folder / "plugin.cfg").read_text()
     description = (folder / "tactus.gdextension").read_text()
     for name in addon._libraries(description):
         assert (folder / name).is_file(), name
@@ -191,15 +195,32 @@ def test_first_touch_by_the_five_steps(own_project):
     assert "FIRST TOUCH true true 0.06" in printed, printed
 
 
+def test_the_five_lines_of_the_readme(own_project):
+    (script,) = re.findall(r"```gdscript\n(.*?)```", (cache.clone() / "README.md").read_text(), re.DOTALL)
+    assert len(script.splitlines()) == 5
+    (own_project / "readme.gd").write_text(script)
+    scene = '[gd_scene format=3]\n\n[ext_resource type="Script" path="res://readme.gd" id="1"]\n\n[node name="Scene" type="Node3D"]\nscript = ExtResource("1")\n'
+    (own_project / "readme.tscn").write_text(scene)
+    settings = own_project / "project.godot"
+    before = settings.read_text()
+    settings.write_text(before.replace('User="*res://user.gd"\n', ""))
+    printed = godot_in(own_project, "--quit-after", "30", "res://readme.tscn")
+    settings.write_text(before)
+    assert "(0.0, 0.0, 0.0)" in printed and "ERROR" not in printed, printed
+
+
 def test_first_touch_in_an_exported_program(own_project):
     settings = own_project / "project.godot"
-    settings.write_text(settings.read_text().replace("[autoload]", 'run/main_scene="res://start.tscn"\n\n[autoload]'))
+    plugin = '[editor_plugins]\n\nenabled=PackedStringArray("res://addons/tactus/plugin.cfg")\n\n[autoload]'
+    settings.write_text(settings.read_text().replace("[autoload]", f'run/main_scene="res://start.tscn"\n\n{plugin}'))
     (own_project / "program").mkdir()
     program = own_project / "program/touch.x86_64"
     exported = godot_in(own_project, "--export-release", "Linux", str(program))
     assert program.is_file(), exported
     done = subprocess.run([program, "--headless"], timeout=120, capture_output=True, text=True)
     assert "FIRST TOUCH true true 0.06" in done.stdout, done.stdout + done.stderr
+    assert (program.parent / "tactus_license.txt").read_text() == (cache.clone() / "LICENSE").read_text(), exported
+    assert "Jolt Physics" in (program.parent / "tactus_notices.txt").read_text(), exported
 
 
 def test_the_cache_names_no_folder_of_this_machine_in_the_archive(own_project):

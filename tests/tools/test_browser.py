@@ -43,10 +43,12 @@ def test_every_page_of_the_documents(chromium, tmp_path):
 
 
 def test_the_report_of_the_experiments(chromium, tmp_path):
-    (tmp_path / "summary.json").write_text(json.dumps(SUMMARY))
-    (tmp_path / "static_force.png").write_bytes(tiny_picture())
+    for name in ("scenario1", "how_far"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "summary.json").write_text(json.dumps(SUMMARY))
+        (tmp_path / name / "static_force.png").write_bytes(tiny_picture())
     page = tmp_path / "report.html"
-    page.write_text(report.page(tmp_path, tmp_path / "scenario4", tmp_path / "scenario5"))
+    page.write_text(report.page(tmp_path))
     assert troubles(chromium, page) == []
 
 

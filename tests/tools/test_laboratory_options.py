@@ -66,3 +66,11 @@ def test_every_default_is_allowed():
         default = getattr(options.parse(description.settings(name), {}), field.name)
         if isinstance(default, (int, float)) and not isinstance(default, bool):
             assert field.metadata["least"] <= default <= field.metadata["most"], f"{name} --{field.name}"
+
+
+@pytest.mark.parametrize("name", experiment.names())
+def test_what_is_cited_gives_the_same_options_again(name):
+    kind = description.settings(name)
+    settings = options.parse(kind, {})
+    given = [word for word in options.words(settings).split() if not word.endswith("=")]
+    assert options.parse(kind, options.of_words(given)) == settings

@@ -1,8 +1,13 @@
 """Words of a case (tests/shared/teleop_words.cpp): by type and range, by names that there are, or refused."""
 
+import functools
+import resource
+import subprocess
+
 import pytest
 
 from experiments import linked_touch
+from measuring import teleop_runs
 from measuring.options import Refused
 
 SHORT = {"seconds": "0.5", "loss": "0.3"}
@@ -31,17 +36,11 @@ def test_a_large_seed_is_a_seed_of_its_own(tmp_path):
 
 
 def test_a_disk_that_is_full_ends_the_run(tmp_path, monkeypatch):
-    import resource
-    import subprocess
+    def limit() -> None:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, 100_000))
 
-    start = subprocess.run
-
-    def limited(command, **more):
-        def limit() -> None:
-            resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, 100_000))
-
-        return start(command, preexec_fn=limit, restore_signals=False, **more) if "--scene=" in str(command) else start(command, **more)
-
-    monkeypatch.setattr(subprocess, "run", limited)
+    teleop_runs._program()
+    limited = functools.partial(subprocess.Popen, preexec_fn=limit, restore_signals=False)
+    monkeypatch.setattr(subprocess, "Popen", limited)
     with pytest.raises(RuntimeError, match="could not be written: is the disk full"):
         linked_touch.run({"seconds": "4", "rows": "1"}, tmp_path)

@@ -76,6 +76,7 @@ def test_the_words_of_the_command_line_are_understood():
     assert platforms.tested_by("cpp.core") is None
     assert [one.name for one in platforms.named_in(["--platform=windows,linux_arm64"])] == ["windows", "linux_arm64"]
     assert platforms.named_in(["--platform=linux"]) == []
+    assert platforms.named_in(["--all"]) == platforms.FOREIGN
 
 
 @pytest.mark.parametrize(

@@ -48,10 +48,30 @@ class Page(HTMLParser):
 
 
 def page(tmp_path, pictures: tuple[str, ...] = ()) -> Page:
-    (tmp_path / "summary.json").write_text(json.dumps(SUMMARY))
+    (tmp_path / "scenario1").mkdir()
+    (tmp_path / "scenario1/summary.json").write_text(json.dumps(SUMMARY))
     for name in pictures:
-        (tmp_path / name).write_bytes(tiny_picture())
-    return Page(report.page(tmp_path, tmp_path / "scenario4", tmp_path / "scenario5"))
+        (tmp_path / "scenario1" / name).write_bytes(tiny_picture())
+    return Page(report.page(tmp_path))
+
+
+def test_an_experiment_of_ones_own_has_its_entry(tmp_path):
+    assert "how_far" not in page(tmp_path).words
+    for name in ("how_far", "how_far.partial"):
+        (tmp_path / name).mkdir()
+        figures = {"about.version": "Tactus 9", "far.force_error_mean_N": 0.1234567, "runs": 3, "never_s": None, "way": "default"}
+        (tmp_path / name / "summary.json").write_text(json.dumps(figures))
+    (tmp_path / "how_far/way.png").write_bytes(tiny_picture())
+    found = Page(report.page(tmp_path))
+    assert found.words.count("how_far") == 1 and len(found.sources) == 1
+    for word in ("Tactus 9", "far.force_error_mean_N", "0.1235", "force error mean, newtons", "3", "–", "default"):
+        assert word in found.words
+    assert "how_far.partial" not in found.words
+
+
+def test_of_many_figures_the_first_are_shown(tmp_path):
+    words = Page(report.page_of("many", {f"figure_{number}_m": 1.0 for number in range(100)}, tmp_path)).words
+    assert "figure_59_m" in words and "figure_60_m" not in words and "40 more figures are in summary.json." in words
 
 
 def test_what_a_local_model_gives_is_told_where_it_was_measured(tmp_path):
@@ -66,13 +86,13 @@ def test_what_a_local_model_gives_is_told_where_it_was_measured(tmp_path):
 
 
 def test_what_a_camera_saw_is_shown_where_it_was_measured(tmp_path):
-    assert "Static" not in page(tmp_path).words
     folder = tmp_path / "scenario5"
     folder.mkdir()
     figures = {f"{scene}.{key}": 0.125 for scene in ("static", "dynamic") for key in report.SEEN}
     (folder / "summary.json").write_text(json.dumps(figures))
     (folder / "static_seen.png").write_bytes(tiny_picture())
     found = page(tmp_path)
+    assert "Static" in found.words
     assert found.words.count("0.125 mm") == 4
     assert len(found.sources) == 1
 

@@ -3,6 +3,7 @@
 import importlib
 import json
 import os
+import random
 import re
 import signal
 import subprocess
@@ -18,7 +19,7 @@ import pytest
 import plots.sweep
 from plots import style
 from setup import cache
-from sweeps import command, description, playing, results, sources, statistics, table
+from sweeps import command, description, effects, playing, results, sources, statistics, table
 from sweeps.command import Settings
 from sweeps.description import Sweep
 
@@ -291,6 +292,42 @@ def test_lines_are_told_apart_in_grey():
     greys = [0.2126 * r + 0.7152 * g + 0.0722 * b for r, g, b, _ in (look["color"] for look in looks)]
     assert greys == sorted(greys) and min(b - a for a, b in zip(greys, greys[1:])) > 0.08
     assert len({look["marker"] for look in looks}) == len({str(look["linestyle"]) for look in looks}) == 5
+
+
+def test_an_effect_has_its_size_and_its_interval():
+    found = effects.of_pairs([1.0, 2.0, 3.0, 4.0], [2.0, 3.0, 4.0, 5.5])
+    assert found.pairs == 4 and found.difference == pytest.approx(1.125)
+    assert found.low == pytest.approx(1.125 - 3.182 * 0.125, abs=1e-3) and found.high == pytest.approx(1.125 + 3.182 * 0.125, abs=1e-3)
+    # The pooled deviation is sqrt((5/3 + 2.2292) / 2), the correction 1 - 3 / 23 (Hedges 1981).
+    assert found.g == pytest.approx(1.125 / 1.39567 * (1 - 3 / 23), rel=1e-4)
+    assert found.g_low < found.g < found.g_high
+    assert effects.of_pairs([1.0, 2.0], [1.0, 2.0]).g == 0.0
+
+
+def test_an_effect_of_the_same_pair_again_is_of_one_pair():
+    found = effects.of_pairs([1.0] * 5, [2.0] * 5)
+    assert (found.pairs, found.difference) == (1, 1.0) and found.low != found.low and found.g != found.g
+
+
+def test_ninety_five_in_a_hundred_intervals_of_an_effect_hold():
+    draw, held, of_g = random.Random(5), 0, 0
+    for _ in range(300):
+        first = [draw.gauss(0.0, 1.0) for _ in range(20)]
+        found = effects.of_pairs(first, [draw.gauss(0.8, 1.0) for _ in first])
+        held += found.low <= 0.8 <= found.high
+        of_g += found.g_low <= 0.8 <= found.g_high
+    assert 275 <= held <= 297 and 265 <= of_g <= 297
+
+
+def test_levels_are_compared_run_by_run_with_the_first(tmp_path):
+    sweep = described(DESCRIPTION | {"factors": {"delay": [0, 50]}, "seeds": [1, 2, 3]}, tmp_path)
+    rows = [
+        {"run": number, **{sweep.column(name): value for name, value in sweep.values(run).items()}, sweep.measures[0]: 0.1 * number**2}
+        for number, run in enumerate(sweep.runs(), 1)
+    ]
+    found = [dict(zip(effects.HEAD, row)) for row in effects.rows(sweep, rows)]
+    assert [(one["factor"], one["level"], one["against"], one["pairs"]) for one in found] == [("delay_ms", 50, 0, 3)]
+    assert found[0]["difference"] == pytest.approx(0.1 * (16 + 25 + 36 - 1 - 4 - 9) / 3)
 
 
 def test_runs_without_chance_count_as_one():

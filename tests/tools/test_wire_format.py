@@ -94,6 +94,14 @@ EXPECTED = {
         {"pointer": 16, "true_at": -123456789, "newest_operator_sample": 0, "force": (0.0, -5.25, 0.0), "torque": STILL,
          "tool": {"position": (-1.0, 0.0, 0.25), "rotation": (0.6, 0.0, 0.8, 0.0)}, "object": wire.NOBODY, "fixed": True},
     ]}),
+    "sample_acknowledgements": ("sample acknowledgements", {
+        "samples": [{"pointer": 1, "sequence": 300}, {"pointer": 17, "sequence": 5}],
+    }),
+    "terms": ("terms", {
+        "scenario": 3, "passivity": 1, "impedance": 4.5, "bodies": 300,
+        "hands": [{"kind": 1, "radius": 0.0105}, {"kind": 0}, {"kind": 1, "radius": 0.005}, *[{"kind": 0}] * 13,
+                  {"kind": 2, "shape": 0x0102030405060708}],
+    }),
     "tool_samples": ("operator samples", {
         "period": 1_000_000, "samples": [
             _tool(43), _tool(42, rotation=_unit(-0.41, 0.38, -0.2, 0.81), spin=(0.5, -1.0, 2.0)),

@@ -380,6 +380,28 @@ def _estimate(r: Reader) -> Fields:
     return estimate
 
 
+def _sample_acknowledgements(r: Reader) -> Fields:
+    count = r.u8()
+    _require(1 <= count <= 24, "count out of range")
+    return {"samples": [{"pointer": r.varint(0xFFFF), "sequence": r.varint(MOST_SEQUENCE)} for _ in range(count)]}
+
+
+def _terms(r: Reader) -> Fields:
+    scenario, passivity = r.u8(), r.u8()
+    _require(1 <= scenario <= 5, "terms out of range")
+    waves = {"impedance": r.varint(10**12) / MICRO} if passivity == 1 else {}
+    bodies, count = r.varint(NOBODY - 1), r.u8()
+    _require(count <= 20, "count out of range")
+    return {"scenario": scenario, "passivity": passivity} | waves | {"bodies": bodies, "hands": [_hand_terms(r) for _ in range(count)]}
+
+
+def _hand_terms(r: Reader) -> Fields:
+    kind = r.choice(2)
+    if kind == 1:
+        return {"kind": kind, "radius": r.varint(10**12) / NANO}
+    return {"kind": kind, "shape": r.u64()} if kind == 2 else {"kind": kind}
+
+
 KINDS = {
     1: ("hello", _hello),
     2: ("bye", _bye),
@@ -394,6 +416,8 @@ KINDS = {
     11: ("ghosts", _ghosts),
     12: ("estimates", _estimates),
     13: ("wrenches", _wrenches),
+    14: ("sample acknowledgements", _sample_acknowledgements),
+    15: ("terms", _terms),
 }
 TOLD_FROM_SENDING = (8, 9, 10, 13)
 
@@ -402,7 +426,8 @@ def packet(data: bytes) -> tuple[Fields, str, Fields]:
     """Header, name of the kind, body."""
     r = Reader(data)
     _require(r.take(2) == b"TC", "wrong magic")
-    _require(r.u8() == 3, "wrong version")
+    version = r.u8()
+    _require(version in (3, 4), "wrong version")
     _require(len(data) <= MOST_PACKET_BYTES, "oversized")
     kind = r.u8()
     header = {"epoch": r.u64(), "sequence": r.varint(MOST_SEQUENCE), "sent_at": r.folded(MOST_TIME)}

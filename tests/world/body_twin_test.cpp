@@ -205,7 +205,7 @@ TEST(BodyTwin, ItStandsWhereItHasGoneWhileItWasBuilt) {
     EXPECT_NEAR(scene.state_of(twin)->linear_velocity.z, 0.25, 1e-3);
 }
 
-TEST(BodyTwin, IsShownOnceAndNotBeforeWhatWasSentHasTakenEffect) {
+TEST(BodyTwin, IsShownOnceAndWithWhatWasSent) {
     Scene scene;
     BodyTwin twin;
     BodyPlan plan = box_plan();
@@ -214,13 +214,46 @@ TEST(BodyTwin, IsShownOnceAndNotBeforeWhatWasSentHasTakenEffect) {
     scene.tick(3);
     const auto shown_tick = [&scene] { return scene.session.snapshot().tick; };
     const BodyState first = *scene.state_of(twin);
-    EXPECT_TRUE(twin.takes(first, shown_tick()));
-    EXPECT_FALSE(twin.takes(first, shown_tick())) << "it is shown already";
-    twin.set_pose(scene.session, Pose{}, 0.01, shown_tick() + 2);
+    EXPECT_TRUE(twin.has_news(first, shown_tick()));
+    const double x = twin.take(first).pose.position.x;
+    EXPECT_FALSE(twin.has_news(first, shown_tick())) << "it is shown already";
+    twin.write_place(scene.session, {{x + 2.0, 7.0, 0.0}}, 0b0011, true);
+    // One that has not heard of it yet, and the first one that has.
+    BodyState late = *scene.state_of(twin);
+    late.changed_at += 1;
+    ASSERT_TRUE(twin.has_news(late, shown_tick()));
+    const Vec3 expected = late.pose.position + Vec3(2.0, 7.0, 0.0);
+    EXPECT_NEAR(glm::distance(twin.take(late).pose.position, expected), 0.0, 1e-9);
+    scene.tick(2);  // the first one's change has the number that was made up
+    ASSERT_TRUE(twin.has_news(*scene.state_of(twin), shown_tick()));
+    EXPECT_NEAR(twin.take(*scene.state_of(twin)).pose.position.y, 7.0, 1e-9) << "it is counted twice";
+}
+
+// What is written is relative to what has been seen, and what is not written goes on.
+TEST(BodyTwin, CitizenWhatIsWrittenLateLeavesTheRestAsItIsByThen) {
+    Scene scene;
+    BodyTwin twin;
+    BodyPlan plan = box_plan();
+    plan.place.linear_velocity = {1.0, 0.0, 0.0};
+    ASSERT_TRUE(scene.add(twin, plan));
+    scene.tick(3);
+    const Vec3 seen = twin.take(*scene.state_of(twin)).pose.position;
+    scene.tick(100);
+    twin.write_place(scene.session, {seen + Vec3(0.5, 2.0, 0.0)}, 0b0011, true);
+    twin.write_velocity(scene.session, {9.0, 3.0, 9.0}, Vec3(0.0), 0b000010);
     scene.tick();
-    EXPECT_FALSE(twin.takes(*scene.state_of(twin), shown_tick())) << "a tick may not have heard of it yet";
+    const BodyState now = *scene.state_of(twin);
+    EXPECT_NEAR(now.pose.position.x - seen.x, 0.6, 0.01) << "it has moved on by 0.1 m meanwhile";
+    EXPECT_NEAR(now.pose.position.y, seen.y + 2.0, 0.01);
+    EXPECT_NEAR(now.linear_velocity.x, 1.0, 0.02);
+    EXPECT_NEAR(now.linear_velocity.y, 3.0, 0.02);
+    EXPECT_EQ(now.linear_velocity.z, 0.0);
+    twin.take(now);
+    scene.tick(100);
+    twin.write_place(scene.session, {{0.0, -4.0, 0.0}}, 0b0010, false);
     scene.tick();
-    EXPECT_TRUE(twin.takes(*scene.state_of(twin), shown_tick()));
+    EXPECT_NEAR(scene.state_of(twin)->pose.position.y, -4.0, 0.01) << "a place that is meant as it is";
+    EXPECT_GT(scene.state_of(twin)->pose.position.x, now.pose.position.x + 0.05);
 }
 
 TEST(BodyTwin, OneThatFindsNoPlaceSaysSo) {

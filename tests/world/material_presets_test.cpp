@@ -12,7 +12,8 @@ namespace {
 TEST(MaterialPresets, EachIsKnownByItsValues) {
     for (const MaterialPreset preset :
          {MaterialPreset::rubber, MaterialPreset::ice, MaterialPreset::sandpaper, MaterialPreset::steel,
-          MaterialPreset::sponge}) {
+          MaterialPreset::sponge, MaterialPreset::wood, MaterialPreset::glass, MaterialPreset::skin,
+          MaterialPreset::foam}) {
         MaterialValues stored = values_of(preset);
         stored.friction = static_cast<float>(stored.friction);  // as Godot gives it back
         stored.bounce = static_cast<float>(stored.bounce);

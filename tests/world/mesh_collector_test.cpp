@@ -20,7 +20,7 @@ std::vector<std::uint8_t> bytes_of(const std::vector<T>& values) {
 TEST(MeshCollector, CornersAtOnePlaceBecomeOneVertex) {
     MeshCollector collector;
     collector.add(two_triangles, {});
-    const TriangleMesh mesh = collector.take();
+    const TriangleMesh mesh = collector.take().mesh;
     EXPECT_EQ(mesh.vertices.size(), 4u);
     ASSERT_EQ(mesh.triangles.size(), 2u);
 }
@@ -28,7 +28,7 @@ TEST(MeshCollector, CornersAtOnePlaceBecomeOneVertex) {
 TEST(MeshCollector, FrontFacesAreTurned) {
     MeshCollector collector;
     collector.add(two_triangles, {});
-    const TriangleMesh mesh = collector.take();
+    const TriangleMesh mesh = collector.take().mesh;
     EXPECT_EQ(mesh.vertices[mesh.triangles[0][1]], Vec3(0.0, 1.0, 0.0));
     EXPECT_EQ(mesh.vertices[mesh.triangles[0][2]], Vec3(1.0, 0.0, 0.0));
 }
@@ -38,29 +38,50 @@ TEST(MeshCollector, ZeroAndMinusZeroAreOnePlace) {
     collector.add(
         std::vector<PackedPlace>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-0.0f, 0, -0.0f}, {0, 1, 0}, {2, 0, 0}},
         {});
-    EXPECT_EQ(collector.take().vertices.size(), 4u);
+    EXPECT_EQ(collector.take().mesh.vertices.size(), 4u);
 }
 
 TEST(MeshCollector, SurfacesComeTogetherAtTheirSeams) {
     MeshCollector collector;
     collector.add({two_triangles.data(), 3}, {});
     collector.add({two_triangles.data() + 3, 3}, {});
-    EXPECT_EQ(collector.take().vertices.size(), 4u);
+    EXPECT_EQ(collector.take().mesh.vertices.size(), 4u);
 }
 
 TEST(MeshCollector, AnIndexWithoutACornerStaysOne) {
     MeshCollector collector;
     collector.add({two_triangles.data(), 3}, std::vector<std::int32_t>{0, 1, 7, 0, 1, -1});
-    const TriangleMesh mesh = collector.take();
+    const TriangleMesh mesh = collector.take().mesh;
     ASSERT_EQ(mesh.triangles.size(), 2u);
     EXPECT_EQ(mesh.triangles[0][1], 0xffff'ffffu);
     EXPECT_EQ(mesh.triangles[1][1], 0xffff'ffffu);
 }
 
+// What names vertices by their numbers, as a pin does, means those that the engine has.
+TEST(MeshCollector, CitizenVerticesAreFoundByTheNumbersThatTheEngineHas) {
+    MeshCollector collector;
+    collector.add(two_triangles, {});
+    collector.add(two_triangles, {});
+    const TriangleSource::Read read = collector.take();
+    ASSERT_EQ(read.merged.size(), 2 * two_triangles.size());
+    for (std::size_t i = 0; i < read.merged.size(); ++i) {
+        const PackedPlace& place = two_triangles[i % two_triangles.size()];
+        EXPECT_EQ(read.mesh.vertices[read.merged[i]], Vec3(place[0], place[1], place[2])) << i;
+    }
+}
+
+TEST(TriangleStrip, CitizenEverySecondTriangleIsTurnedAndJointsAreLeftOut) {
+    using List = std::vector<std::int32_t>;
+    EXPECT_EQ(triangles_of_strip({}, 5), (List{0, 1, 2, 1, 3, 2, 2, 3, 4}));
+    const List joined = {7, 8, 9, 9, 4, 4, 5, 6};
+    EXPECT_EQ(triangles_of_strip(joined, 10), (List{7, 8, 9, 4, 6, 5})) << "the sixth is turned as well";
+    EXPECT_TRUE(triangles_of_strip({}, 2).empty());
+}
+
 TEST(MeshCollector, CornersThatAreNoTriangleAreLeftOut) {
     MeshCollector collector;
     collector.add({two_triangles.data(), 5}, {});
-    EXPECT_EQ(collector.take().triangles.size(), 1u);
+    EXPECT_EQ(collector.take().mesh.triangles.size(), 1u);
 }
 
 TEST(SurfaceBytes, PlainPlacesAndBothWidthsOfIndices) {

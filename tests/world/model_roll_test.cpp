@@ -10,13 +10,15 @@ namespace {
 struct Stage {
     std::uint64_t next = 100;
     std::vector<std::uint64_t> hidden;
+    std::uint64_t freed = 0;  // a node of it that is gone
     ModelRoll roll;
 
     std::vector<ModelNews> update(const std::vector<ModelObject>& objects) {
         return roll.update(
             objects,
             [this](const std::string&, const ModelRoll::Form&) { return ModelRoll::Shown{.node = next++}; },
-            [this](const ModelRoll::Shown& shown) { hidden.push_back(shown.node); });
+            [this](const ModelRoll::Shown& shown) { hidden.push_back(shown.node); },
+            [this](const std::string&, const ModelRoll::Shown& shown) { return shown.node != freed; });
     }
 };
 
@@ -46,6 +48,26 @@ TEST(ModelRoll, ShowsAnewWhatIsAnotherBodyByNow) {
     EXPECT_EQ(stage.hidden, std::vector<std::uint64_t>{100});
     EXPECT_EQ(stage.roll.node_of(7), 0u);
     EXPECT_EQ(stage.roll.node_of(8), 101u);
+}
+
+TEST(ModelRoll, ShowsAnewWhatHasLostItsNode) {
+    Stage stage;
+    stage.update({object(1, "Box", 7), object(2, "Ball", 9)});
+    stage.freed = 100;
+    const auto news = stage.update({object(1, "Box", 7), object(2, "Ball", 9)});
+    ASSERT_EQ(news.size(), 1u);
+    EXPECT_EQ(news[0].kind, ModelNews::Kind::discovered);
+    EXPECT_EQ(news[0].node, 102u);
+    EXPECT_EQ(stage.roll.node_of(7), 102u);
+    EXPECT_EQ(stage.roll.node_of(9), 101u);
+    EXPECT_TRUE(stage.update({object(1, "Box", 7), object(2, "Ball", 9)}).empty()) << "once";
+}
+
+TEST(ModelRoll, AsksForNoNodeOfWhatCouldNotBeBuilt) {
+    Stage stage;
+    stage.update({object(1, "Box", no_handle, "it has no shape")});
+    stage.freed = 0;
+    EXPECT_TRUE(stage.update({object(1, "Box", no_handle, "it has no shape")}).empty());
 }
 
 TEST(ModelRoll, HidesWhatIsGone) {
@@ -84,7 +106,7 @@ TEST(ModelRoll, IsShownInTheFormThatWasDescribed) {
             seen = form;
             return ModelRoll::Shown{.node = 5};
         },
-        [](const ModelRoll::Shown&) {});
+        [](const ModelRoll::Shown&) {}, [](const std::string&, const ModelRoll::Shown&) { return true; });
     EXPECT_EQ(seen.pose.position, Vec3(1, 2, 3));
     EXPECT_EQ(seen.touched.size(), 1u);
 }

@@ -44,6 +44,7 @@ struct World {
     }
 
     SessionHandle add(const Vec3& position) {
+        names.push_back("Box" + std::to_string(additions.size()));
         additions.push_back(box_at(position));
         const AddResult added = session.add_body(additions.back());
         EXPECT_EQ(added.error, "");
@@ -58,11 +59,8 @@ struct World {
                          {now, true, true});
         if (!link.is_operator()) {
             link.tell(
-                told,
-                [this](std::size_t i) {
-                    return WorldLink::Description{"Box" + std::to_string(i), additions[i]};
-                },
-                joints, session.snapshot(), now);
+                told, [this](std::size_t i) { return WorldLink::Description{names[i], additions[i]}; },
+                [this](std::size_t i) { return names[i]; }, joints, session.snapshot(), now);
         }
         for (int i = 0; i < 10; ++i, now += period) {
             session.tick(now);
@@ -76,6 +74,7 @@ struct World {
     WorldLink link;
     Nanoseconds now = 0;
     std::vector<BodyAddition> additions;
+    std::vector<std::string> names;
     std::vector<WorldLink::Told> told;
     std::vector<WorldLink::ToldJoint> joints;
 };
@@ -120,6 +119,39 @@ TEST(WorldLink, WhatIsToldBecomesTheModelAndGoesAgain) {
     sides.there.told.pop_back();
     frames(sides.here, sides.there, 40);
     EXPECT_EQ(sides.here.link.objects().size(), 1u);
+}
+
+TEST(WorldLink, AnotherNameIsTold) {
+    Sides sides;
+    for (int i = 0; i < 40; ++i) {
+        sides.there.add(Vec3(3.0 * i, 0.0, 0.0));
+    }
+    frames(sides.here, sides.there, 120);
+    const auto is_there = [&](const std::string& name) {
+        return std::ranges::count(sides.here.link.objects(), name, &ModelObject::name) == 1;
+    };
+    ASSERT_TRUE(is_there("Box37"));
+    const std::uint64_t pieces = sides.there.link.report().teleop.discovery.pieces_sent;
+    sides.there.names[37] = "Shelf/Box37";
+    frames(sides.here, sides.there, 40);
+    EXPECT_TRUE(is_there("Shelf/Box37"));
+    EXPECT_FALSE(is_there("Box37"));
+    EXPECT_EQ(sides.here.link.objects().size(), 40u);
+    EXPECT_LE(sides.there.link.report().teleop.discovery.pieces_sent - pieces, 3u) << "of that one only";
+}
+
+// Two that change their names with each other.
+TEST(WorldLink, NamesAreExchanged) {
+    Sides sides;
+    const SessionHandle first = sides.there.add(Vec3(0.0));
+    sides.there.add(Vec3(3.0, 0.0, 0.0));
+    frames(sides.here, sides.there, 80);
+    std::swap(sides.there.names[0], sides.there.names[1]);
+    frames(sides.here, sides.there, 40);
+    ASSERT_EQ(sides.here.link.objects().size(), 2u);
+    for (const ModelObject& object : sides.here.link.objects()) {
+        EXPECT_EQ(object.name, object.object == first ? "Box1" : "Box0");
+    }
 }
 
 TEST(WorldLink, WhatJoinsIsToldOnceAndGoesAgain) {

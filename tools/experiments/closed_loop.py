@@ -1,7 +1,7 @@
 """A hand that is pushed back: an arm with mass, damping and stiffness presses, over a network, traditionally and with a
 local model (what a scripted path leaves open: thesis 5.3, inference 5).
 
-    ./run experiment closed_loop [--delays=0,25,50,100,200,500] [--pictures=1]
+    ./run experiment closed_loop [--delays=0,25,50,100,200,500] [--two_port=1] [--pictures=1]
 
 In the static scene the arm presses onto the ground and holds; in the dynamic one it pushes a box, whose model is 20 %
 too heavy and 30 % too slippery, and holds. Cases are SCENE.local and SCENE.WAY_DELAYms, where WAY is mmt (the default),
@@ -15,6 +15,11 @@ than 0.05 N then there is no such share), settled_force_error_N how much of it i
 fast the hand moves then. The others: how deep the hand goes into the environment (penetration), how far beyond where it
 then settles (overshoot), by how much deeper than by local touch (over_penetration), and the energy that the device gives
 the hand. passive.energy_created_max_J and passive.link_energy_created_max_J are the most of all that is called passive.
+
+With --two_port=1 every scheme that keeps traditional touch passive, with its defaults and tuned, also presses a wall, pushes a box and
+leads a robot at each delay, with jitter, with losses and with bursts of them: passivity.two_port_energy_created_over_store_max is the largest
+energy that hand and far side together have been given, summed outside, over what the two ends may spend before they have heard of any
+(their stores; waves have none: over one millijoule). passivity.CASE is that of each.
 """
 
 import csv
@@ -31,10 +36,21 @@ SCENES = ("static", "dynamic")
 LEAST_SHARED = 0.05
 
 
+# What two ends of a scheme may spend that nothing has paid for yet (PassivitySettings; joules).
+STORES: dict[str, dict[str, float]] = {
+    "wave_variables": {},
+    "time_domain": {"reserve": 1e-3, "far_store": 5e-3},
+    "two_layers": {"reserve": 1e-3, "far_store": 5e-3, "tank": 1e-2},
+}
+LEAST_STORE = 1e-3
+LINES: dict[str, teleop_runs.Case] = {"clean": {}, "jitter": {"jitter_ms": 5}, "loss": {"loss": 0.1}, "bursts": {"burst": 0.2}}
+
+
 @dataclass(frozen=True)
 class Settings:
     delays: tuple[int, ...] = options.numbers((0, 25, 50, 100, 200, 500), "ms", 0, options.LONGEST_DELAY_MS)
     clock: Literal["virtual", "real"] = "virtual"
+    two_port: bool = options.switch(False)
     pictures: bool = options.switch(True)
 
 
@@ -81,11 +97,38 @@ def run(given: dict[str, str], output: Path) -> dict[str, object]:
             summary |= {f"{name}.{key}": value for key, value in of_case(figures).items()}
         _write_table(output / f"{scene}.csv", {name: of_case(figures) for name, figures in found.items()})
     summary |= passive(summary)
+    if settings.two_port:
+        summary |= two_port(description, delays, output)
     if settings.pictures:
         from plots import closed_loop
 
         closed_loop.draw(output, SCENES, delays, summary)
     return summary
+
+
+def two_port(description: dict, delays: list[str], output: Path) -> dict[str, object]:
+    over_store: dict[str, float] = {}
+    for place in (*SCENES, "robot"):
+        scene = "static" if place == "robot" else place
+        stores = {}
+        asked = []
+        for scheme, store in STORES.items():
+            for tuned in (False, True):
+                keys = {"traditional": 1, "passivity": scheme} | (rivals.TUNED[scheme] if tuned else {})
+                for line, conditions in LINES.items():
+                    for delay in delays:
+                        name = f"{place}.{scheme}{'.tuned' if tuned else ''}.{line}.{delay}ms"
+                        case = {"name": name, "delay_ms": delay, **common(description, scene), **keys, **conditions}
+                        asked.append(case | ({"robot": 1} if place == "robot" else {}))
+                        stores[name] = max(LEAST_STORE, sum(float(str(keys.get(key, usual))) for key, usual in store.items()))
+        found = teleop_runs.run(description[scene]["scene"], asked, output)
+        over_store |= {name: figures["link_energy_created_J"] / stores[name] for name, figures in found.items()}
+    worst = max(over_store, key=lambda name: over_store[name])
+    return {
+        "passivity.two_port_energy_created_over_store_max": over_store[worst],
+        "passivity.two_port_worst_case": worst,
+        "passivity.two_port_cases": len(over_store),
+    } | {f"passivity.{name}.energy_created_over_store": value for name, value in over_store.items()}
 
 
 def of_case(figures: dict[str, float]) -> dict[str, float]:

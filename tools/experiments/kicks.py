@@ -1,6 +1,6 @@
 """Every change of the model that could kick a hand that touches: how much of each is felt (100 ms away).
 
-    ./run experiment kicks [--delay=100] [--kinds=stiffness,restart,…] [--set=KEY=VALUE,KEY=VALUE] [--pictures=1]
+    ./run experiment kicks [--delay=100] [--kinds=stiffness,restart,…] [--set=KEY=VALUE,KEY=VALUE] [--still=1] [--pictures=1]
 
 The hand presses (2.5 N), slides or pushes; the model is wrong in one thing and at 2 s the far side tells the truth, or the
 far side starts anew, or the link dies. Bodies are described over the link, as between two programs. The figures count from
@@ -8,9 +8,17 @@ then until the hand is about to leave: KIND.felt_excess_100ms_jnd_max, KIND.felt
 what of the mistake is still felt at the end, and KIND.let_go where the pointer has let go and said so. demo_project/experiments/kicks.json says what each KIND is.
 KIND.untold.felt_excess_… is what is felt of the same mistake where nothing changes. Of a model that is wrong from the start KIND.bound.felt_excess_… is
 what is left to any way: before a word of its mistake can have come.
+
+With --still=1 a hand also presses and holds still while something else changes (tests/shared/unexplained_steps.hpp), at 0, 2, 10, 50
+and 200 ms: every step of its force is then unexplained by its own motion. still.CHANGE.step_unexplained_max_N is the largest in a tick over all
+delays, scenarios and hands, still.CHANGE.far_step_max_N that of the far hand while a hand of the operator comes or goes, and
+still.CHANGE.far_alone_max_N what the far hand presses with, where it presses on for 1 s and the delay while the operator feels nothing.
+step_unexplained_max_N is the largest of all.
 """
 
 import csv
+import json
+import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
@@ -18,6 +26,7 @@ from typing import Literal
 from measuring import options, teleop_runs
 from measuring.teleop_scene import Scene
 
+STILL = ("step_unexplained_max_N", "far_step_max_N", "far_alone_max_N")
 EXCESS = ("felt_excess_100ms_jnd_max", "felt_excess_100ms_N_max", "felt_excess_1ms_N_max")
 FIGURES = (*EXCESS, "force_error_left_N", "energy_created_J")
 
@@ -28,6 +37,7 @@ class Settings:
     kinds: tuple[str, ...] = options.names(None, lambda: teleop_runs.description("kicks")["kinds"])
     set: dict[str, str] = options.pairs()
     clock: Literal["virtual"] = "virtual"
+    still: bool = options.switch(True)
     pictures: bool = options.switch(True)
 
 
@@ -50,6 +60,8 @@ def run(given: dict[str, str], output: Path) -> dict[str, object]:
         summary[f"{kind}.let_go"] = found[kind]["let_go_ticks"] > 0
         summary |= {f"{kind}.bound.{key}": found[_bound(kind)][key] for key in EXCESS if _bound(kind) in found}
         summary |= {f"{kind}.untold.{key}": found[_untold(kind)][key] for key in EXCESS if _untold(kind) in found}
+    if settings.still:
+        summary |= still(output)
     summary["kicking_kinds"] = sum(not is_quiet(found[kind]) for kind in chosen)
     with (output / "kicks.csv").open("w", newline="") as file:
         writer = csv.writer(file)
@@ -59,6 +71,22 @@ def run(given: dict[str, str], output: Path) -> dict[str, object]:
         from plots import kicks
 
         kicks.draw(output, chosen, summary, description["at"])
+    return summary
+
+
+def still(output: Path) -> dict[str, object]:
+    lines = subprocess.run([teleop_runs.program(), "--still=1"], check=True, capture_output=True, text=True).stdout.splitlines()
+    cases = [json.loads(line) for line in lines]
+    with (output / "still.csv").open("w", newline="") as file:
+        writer = csv.DictWriter(file, list(cases[0]))
+        writer.writeheader()
+        writer.writerows(cases)
+    summary: dict[str, object] = {}
+    for change in dict.fromkeys(case["case"].split(".")[0] for case in cases):
+        mine = [case for case in cases if case["case"].split(".")[0] == change]
+        summary |= {f"still.{change}.{key}": max(case[key] for case in mine) for key in STILL}
+    summary["step_unexplained_max_N"] = max(case["step_unexplained_max_N"] for case in cases)
+    summary["still_cases"] = len(cases)
     return summary
 
 

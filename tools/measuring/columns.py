@@ -5,9 +5,13 @@ import json
 import re
 from pathlib import Path
 
+FILE = "columns.json"
+
 # A whole name, or its beginning and its end: with the unit.
 _MEANINGS = (
-    (r"time_us", "the tick's time as it was scheduled, microseconds"),
+    (r"time_us", "when the tick was due, microseconds"),
+    (r"ran_us", "when the tick began, microseconds: time_us where the clock is stepped"),
+    (r"force_cut", "why the device's force was cut since the row before, as a sum: 1 a late tick, 2 a silent device, 4 a stuck driver; 0: it was not"),
     (r"force_[xyz]", "force that the proxy asks for, in the world's frame, newtons"),
     (r"displayed_[xyz]", "force that the device was given, behind every limit, in the world's frame, newtons"),
     (r"direct_[xyz]", "force of direct, undelayed touch by the same hand, newtons"),
@@ -30,6 +34,10 @@ _MEANINGS = (
     (r"run|round", "its number"),
     (r"worse|diverged", "1: it is"),
     (r"settings", "keys of tests/shared/teleop_words.cpp"),
+    (r"factor|level|against|measure", "what is compared: a factor's level against another one, by this figure"),
+    (r"pairs", "runs that differ in that factor alone"),
+    (r"difference(_low|_high)?", "mean difference of the pairs (its 95 % interval), in the figure's unit"),
+    (r"hedges_g(_low|_high)?", "that difference over the pooled standard deviation (its 95 % interval)"),
     (r"score", "geometric mean of force errors over those of the reference"),
 )
 _UNITS = (
@@ -58,4 +66,4 @@ def write(folder: Path) -> None:
         with path.open(newline="") as file:
             found[path.name] = {column: meaning(column) for column in next(csv.reader(file), [])}
     if found:
-        (folder / "columns.json").write_text(json.dumps(found, indent=2, ensure_ascii=False) + "\n")
+        (folder / FILE).write_text(json.dumps(found, indent=2, ensure_ascii=False) + "\n")

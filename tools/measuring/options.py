@@ -99,6 +99,19 @@ def parse(kind: type[Options], given: Mapping[str, str]) -> Options:
     return kind(**values)
 
 
+def words(settings: Any) -> str:
+    """All options with the values that they have, as they are given."""
+    return " ".join(f"--{one.name}={_written(getattr(settings, one.name))}" for one in fields(settings))
+
+
+def _written(value: object) -> str:
+    if isinstance(value, bool):
+        return str(int(value))
+    if isinstance(value, Mapping):
+        return ",".join(f"{key}={one}" for key, one in value.items())
+    return ",".join(map(str, value)) if isinstance(value, tuple) else str(value)
+
+
 def allowed(one: Field) -> str:
     """What may stand behind the key, in words."""
     kind, among = one.type, one.metadata.get("among")

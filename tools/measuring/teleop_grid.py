@@ -123,7 +123,7 @@ def _wrong(description: dict, scene: str, how: dict[str, float]) -> teleop_runs.
 
 def summary(found: Found, prefix: str) -> dict[str, object]:
     """The keys of every scheme behind `prefix`: the default's as they are, the others' with their names before them."""
-    result: dict[str, object] = {}
+    result: dict[str, object] = {f"{prefix}worse_than_never_corrected_tolerance_N": SAME_FORCE}
     for scheme, results in found.items():
         start = prefix if scheme == "default" else f"{prefix}{scheme}."
         all_figures = figures(results, found["never_corrected"])

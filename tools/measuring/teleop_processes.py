@@ -14,6 +14,7 @@ from measuring import records
 from measuring.scene_run import START_AND_END
 from project import FOLDER
 from setup import cache, godot
+from setup.progress import Pace, bar
 
 TRADITIONAL, MODEL_MEDIATED = 2, 4
 OPERATOR, FAR = 0, 1
@@ -228,9 +229,11 @@ def play_all(cases: list[Case], output: Path) -> dict[str, Run]:
     rounds = cache.emptied(output / "rounds")
     direct: dict[str, records.Record] = {}
     found = {}
-    for case in cases:
+    pace = Pace()
+    for number, case in enumerate(cases):
         if case.scene not in direct:
             direct[case.scene] = direct_touch(case, rounds)
+        print(bar(number, len(cases), pace.left(number, len(cases))), flush=True)
         print(f"{case.name}: two processes for {case.seconds:g} s", flush=True)
         found[case.name] = play(case, rounds, direct[case.scene])
         error = figures(found[case.name])["force_error_mean_N"]

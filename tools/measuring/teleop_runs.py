@@ -5,16 +5,21 @@ tests/bench/teleop.cpp, faster than real time, and the same case gives the same 
 import json
 import os
 import subprocess
+import tempfile
+import time
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cache as once
 from pathlib import Path
+from threading import Lock
 
 import build
 from measuring.options import Refused, option
 from measuring.teleop_scene import Scene
 from project import FOLDER
 from setup import cache
+from setup.progress import Progress, bar
 
 Case = dict[str, object]  # its keys are those of tests/bench/teleop.cpp, and "name"
 
@@ -91,7 +96,7 @@ def run(scene: str, cases: list[Case], folder: Path, bins: bool = False, lines: 
     """The figures of each case by its name; with `bins`, how the ticks spread is among them. `folder` gets the rows of
     those that ask for them by "rows". `lines`: what is run in place of the scene as it is.
     """
-    program = _program()
+    binary = program()
     folder.mkdir(parents=True, exist_ok=True)
     scene_file = folder / "scene.txt"
     scene_file.write_text(lines or Scene(scene).lines())
@@ -102,24 +107,58 @@ def run(scene: str, cases: list[Case], folder: Path, bins: bool = False, lines: 
         number, share = numbered
         cases_file = folder / f"cases_{number}.txt"
         cases_file.write_text("".join(_line(case) for case in share))
-        command = [program, f"--scene={scene_file}", f"--cases={cases_file}", f"--bins={int(bins)}"]
-        done = subprocess.run(command, text=True, capture_output=True)
-        if done.returncode == REFUSED:
-            raise Refused(done.stderr.strip())
-        if done.returncode != 0:
-            raise RuntimeError(f"{cases_file} could not be run:\n{done.stderr[-2000:]}")
-        return [json.loads(line) for line in done.stdout.splitlines()]
+        command = [binary, f"--scene={scene_file}", f"--cases={cases_file}", f"--bins={int(bins)}"]
+        return [json.loads(line) for line in _lines(command, cases_file, arrived.one_more)]
 
-    with ThreadPoolExecutor(workers) as pool:
-        results = [result for share in pool.map(work, enumerate(shares)) for result in share]
+    arrived = _Arrivals(len(cases))
+    try:
+        with ThreadPoolExecutor(workers) as pool:
+            results = [result for share in pool.map(work, enumerate(shares)) for result in share]
+    finally:
+        arrived.end()
     by_name = {result.pop("case"): result for result in results}
     for leftover in (scene_file, *folder.glob("cases_*.txt")):
         leftover.unlink()
     return {str(case["name"]): by_name[str(case["name"])] for case in cases}
 
 
+class _Arrivals:
+    """A bar of how many cases are done, and how long the others will take."""
+
+    def __init__(self, wanted: int):
+        self._wanted, self._done = wanted, 0
+        self._progress, self._lock, self._began = Progress(), Lock(), time.monotonic()
+
+    def one_more(self) -> None:
+        with self._lock:
+            self._done += 1
+            # Cases end too fast for the last few of them to tell.
+            left = (time.monotonic() - self._began) / self._done * (self._wanted - self._done)
+            self._progress.show(bar(self._done, self._wanted, left))
+
+    def end(self) -> None:
+        self._progress.end()
+
+
+def _lines(command: list, cases_file: Path, arrived: Callable[[], None]) -> list[str]:
+    """What the program says, a line a case; `arrived` is called for each as it comes."""
+    lines = []
+    with tempfile.TemporaryFile("w+") as errors:
+        with subprocess.Popen(command, text=True, stdout=subprocess.PIPE, stderr=errors) as program:
+            for line in program.stdout or ():
+                lines.append(line)
+                arrived()
+        errors.seek(0)
+        said = errors.read()
+    if program.returncode == REFUSED:
+        raise Refused(said.strip())
+    if program.returncode != 0:
+        raise RuntimeError(f"{cases_file} could not be run:\n{said[-2000:]}")
+    return lines
+
+
 @once
-def _program() -> Path:
+def program() -> Path:
     """Built when a process first asks for it; one process at a time, for SCons knows of no other."""
     with cache.lock(cache.clone() / "build", "bench teleop"):
         build.build("template_release", "build/template_release/bench/teleop")

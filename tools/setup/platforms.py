@@ -63,7 +63,9 @@ def tested_by(word: str) -> Platform | None:
 
 
 def named_in(arguments: list[str]) -> list[Platform]:
-    """Those that --platform=NAME[,NAME…] asks for, besides this machine's own."""
+    """Those that --platform=NAME[,NAME…] or --all asks for, besides this machine's own."""
+    if "--all" in arguments:
+        return list(FOREIGN)
     names = [name for word in arguments if word.startswith("--platform=") for name in word.partition("=")[2].split(",")]
     return [one for one in map(named, dict.fromkeys(names)) if one.is_foreign]
 

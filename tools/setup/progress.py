@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from threading import Event, Thread
 
+BAR = 30  # letters
 IN_A_LOG = 15.0  # between two words (unit: seconds)
 ON_A_SCREEN = 0.2
 
@@ -34,6 +35,13 @@ def in_words(seconds: float) -> str:
     if seconds < 90.0:
         return f"{seconds:.0f} s"
     return f"{seconds / 60.0:.0f} min" if seconds < 5400.0 else f"{seconds / 3600.0:.1f} h"
+
+
+def bar(done: int, wanted: int, seconds_left: float | None, more: str = "") -> str:
+    """`seconds_left`: None where that cannot be told yet."""
+    filled = BAR * done // max(wanted, 1)
+    left = "" if seconds_left is None else f", {in_words(seconds_left)} left"
+    return f"{'█' * filled}{'░' * (BAR - filled)} {done} of {wanted}{more}{left}"
 
 
 class Progress:

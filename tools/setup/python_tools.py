@@ -1,32 +1,40 @@
-"""SCons, the formatters, matplotlib, Dask, Sphinx and pytest in a virtual environment of the cache, each file checked by its hash."""
+"""Python packages in virtual environments of the cache, each file checked by its hash.
+
+"venv" has SCons, the formatters, matplotlib, Dask, Sphinx and pytest; "mujoco" what the bench of credibility asks.
+"""
 
 import shutil
 import subprocess
 import sys
+from pathlib import Path
 
 from . import cache, fetching
 
-
-def is_done() -> bool:
-    return cache.is_done(_folder(), _key())
+REQUIREMENTS = {"venv": "tools/requirements.txt", "mujoco": "tools/credibility/requirements.txt"}
 
 
-def install() -> None:
-    shutil.rmtree(_folder(), ignore_errors=True)
-    subprocess.run([sys.executable, "-m", "venv", _folder()], check=True)
-    requirements = cache.clone() / "tools/requirements.txt"
+def is_done(name: str = "venv") -> bool:
+    return cache.is_done(_folder(name), _key(name))
+
+
+def install(name: str = "venv") -> None:
+    shutil.rmtree(_folder(name), ignore_errors=True)
+    subprocess.run([sys.executable, "-m", "venv", _folder(name)], check=True)
     options = ["--quiet", "--disable-pip-version-check", "--no-compile", "--require-hashes", "--only-binary=:all:"]
-    command = [cache.venv_bin("python"), "-m", "pip", "install", *options, "-r", requirements]
+    command = [python(name), "-m", "pip", "install", *options, "-r", cache.clone() / REQUIREMENTS[name]]
     done = subprocess.run(command, text=True, capture_output=True)
     if done.returncode != 0:
         raise fetching.trouble("pip", done.stderr)
-    cache.mark_done(_folder(), _key())
+    cache.mark_done(_folder(name), _key(name))
 
 
-def _folder():
-    return cache.root() / "venv"
+def python(name: str = "venv") -> Path:
+    return _folder(name) / "bin" / "python"
 
 
-def _key() -> str:
-    requirements = (cache.clone() / "tools/requirements.txt").read_text()
-    return cache.digest(requirements, sys.version, str(_folder()))
+def _folder(name: str) -> Path:
+    return cache.root() / name
+
+
+def _key(name: str) -> str:
+    return cache.digest((cache.clone() / REQUIREMENTS[name]).read_text(), sys.version, str(_folder(name)))

@@ -13,13 +13,12 @@ from dataclasses import dataclass
 from itertools import count
 from pathlib import Path
 
-from measuring import options
+from measuring import columns, options
 from setup import cache
-from setup.progress import Progress, in_words
+from setup.progress import Progress, bar
 from sweeps import description, playing, results, sources, table
 from sweeps.description import Run, Sweep
 
-BAR = 30  # letters
 OWNER = "described_by.txt"  # has the path of the file that describes the sweep
 
 
@@ -104,9 +103,8 @@ class _Arrivals:
         done = len(self._found.summaries)
         played, left = done - self._before, self._count - done - len(self._failed)
         seconds = (time.monotonic() - self._started) / max(played, 1) * left
-        filled = BAR * done // self._count
         failed = f", {len(self._failed)} failed" if self._failed else ""
-        return f"{'█' * filled}{'░' * (BAR - filled)} {done} of {self._count}{failed}, {in_words(seconds)} left"
+        return bar(done, self._count, seconds, failed)
 
     def _kept(self) -> str:
         return f"{len(self._found.summaries)} of {self._count} runs are kept: the same command goes on from there"
@@ -129,13 +127,15 @@ def _clear(folder: Path, written: set[str]) -> None:
 
 def _write(sweep: Sweep, folder: Path, runs: list[Run], found: results.Found, failed: list[str]) -> None:
     from plots import sweep as plots
-    from sweeps import report
+    from sweeps import effects, report
 
     rows = table.rows(sweep, runs, found.summaries)
     results.write_whole(folder / "sweep.json", json.dumps(dataclasses.asdict(sweep), indent=2) + "\n")
     results.write_whole(folder / "sweep.csv", table.text(rows))
     print(_shown(folder / "sweep.csv"))
-    written = {OWNER, "sweep.json", "sweep.csv"}
+    results.write_whole(folder / "effects.csv", table.lines(effects.HEAD, effects.rows(sweep, rows)))
+    columns.write(folder)
+    written = {OWNER, "sweep.json", "sweep.csv", "effects.csv", columns.FILE}
     if rows:
         pictures = {measure: plots.draw(sweep, rows, measure, folder / measure) for measure in sweep.measures}
         written |= {"report.html", *(path.name for paths in pictures.values() for path in paths)}

@@ -6,7 +6,7 @@ from pathlib import Path
 import report_page as html
 from measuring import host
 from plots.sweep import levels, word
-from sweeps import statistics
+from sweeps import effects, statistics
 from sweeps.description import Sweep
 from sweeps.table import Rows
 
@@ -24,6 +24,7 @@ def page(sweep: Sweep, table: Rows, asked: int, sources: str, pictures: Mapping[
         [
             *([html.section("What is missing", *(html.paragraph(line) for line in told))] if told else []),
             *(_measure(sweep, table, measure, paths) for measure, paths in pictures.items()),
+            *_effects(effects.rows(sweep, table)),
             _how(sweep, sources),
         ],
     )
@@ -51,6 +52,24 @@ def _means(sweep: Sweep, table: Rows, measure: str) -> str:
     head = (*columns, "runs", "independent", "mean", "± 95 %", "least", "most")
     more = [html.paragraph(f"{MOST_ROWS} of {len(rows)} rows; all runs are in sweep.csv.")] if len(rows) > MOST_ROWS else []
     return "\n".join([html.table(head, rows[:MOST_ROWS], numbers_from=len(columns)), *more])
+
+
+def _effects(found: list[tuple]) -> list[str]:
+    if not found:
+        return []
+    rows = [
+        (f"{factor}: {word(level)} against {word(first)}", measure, str(pairs), *(_between(*three) for three in (figures[:3], figures[3:])))
+        for factor, level, first, measure, pairs, *figures in found[:MOST_ROWS]
+    ]
+    words = (
+        "Pairs of runs that differ in that factor alone, with the same seed. The difference has its 95 % interval by Student's t; Hedges' g is the "
+        "difference over the pooled standard deviation, with its 95 % interval by bootstrap over the pairs. All are in effects.csv."
+    )
+    return [html.section("What a factor changes", html.paragraph(words), html.table(("", "measure", "pairs", "difference", "Hedges' g"), rows, numbers_from=2))]
+
+
+def _between(value: float, low: float, high: float) -> str:
+    return f"{value:.3g} ({low:.3g} … {high:.3g})" if low == low else f"{value:.3g}" if value == value else "–"
 
 
 def _in_words(values: list[float]) -> tuple[str, ...]:

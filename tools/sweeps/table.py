@@ -2,6 +2,7 @@
 
 import csv
 import io
+from collections.abc import Iterable, Sequence
 
 from sweeps.description import Run, Sweep
 from sweeps.results import Summary
@@ -21,12 +22,16 @@ def rows(sweep: Sweep, runs: list[Run], summaries: dict[str, Summary]) -> Rows:
 
 def text(table: Rows) -> str:
     columns = list(dict.fromkeys(name for row in table for name in row))
+    return lines(columns, ([row.get(name, "") for name in columns] for row in table))
+
+
+def lines(head: Sequence[str], found: Iterable[Sequence[object]]) -> str:
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(columns)
-    writer.writerows([_cell(row.get(name, "")) for name in columns] for row in table)
+    writer.writerow(head)
+    writer.writerows(map(_cell, row) for row in found)
     return out.getvalue()
 
 
 def _cell(value: object) -> object:
-    return int(value) if isinstance(value, bool) else value
+    return int(value) if isinstance(value, bool) else "" if value != value else value

@@ -22,7 +22,7 @@ from testing.results import Result, matching
 FOLDER = cache.clone() / "tests/godot"
 PROJECT = cache.clone() / "demo_project"
 RELEASED = ["first_touch_test", "misuse_test", "random_calls_test", "scripts_test", "turns_test"]
-EDITED = ["editor_test"]
+EDITED = ["citizen_editor_test", "editor_test"]
 NEED_EYES = ["scenario5_test", "sensing_test"]
 MAIN_SCENE = """[gd_scene load_steps=2 format=3]
 
@@ -95,7 +95,9 @@ def _run_edited(path: Path, chosen: list[str]) -> list[Result]:
     folder = _with_tests(cache.clone() / "build/edited_tests" / path.stem)
     (folder / "tests/plugin.cfg").write_text(EDITOR_PLUGIN)
     settings = folder / "project.godot"
-    settings.write_text(settings.read_text().replace('enabled=PackedStringArray(', 'enabled=PackedStringArray("res://tests/plugin.cfg", '))
+    with_plugin = settings.read_text().replace('enabled=PackedStringArray(', 'enabled=PackedStringArray("res://tests/plugin.cfg", ')
+    # What the editor plays needs no screen either.
+    settings.write_text(with_plugin + '\n[editor]\n\nrun/main_run_args="--headless"\n')
     project.import_into(folder)
     command = [str(godot.command()), "--headless", "--editor", "--path", folder, "--", f"res://tests/{path.name}"]
     names = [name.removeprefix(_prefix(path)) for name in chosen]

@@ -171,5 +171,10 @@ func _write() -> void:
 	if file == null:
 		%Said.text = "The report cannot be written to %s" % report_path
 		return
-	file.store_string(JSON.stringify(report, "\t"))
+	var text := JSON.stringify(report, "\t")
+	file.store_string(text)
+	file.close()
+	if FileAccess.get_file_as_string(report_path) != text:
+		%Said.text = "The report could not be written to the end of %s: is the disk full?" % report_path
+		return
 	finished.emit(report)

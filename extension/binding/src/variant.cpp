@@ -76,6 +76,8 @@ Variant& Variant::operator=(Variant&& other) noexcept {
     return *this;
 }
 
+Variant::Variant(const char* text) : Variant(String(text)) {}
+
 Variant::Variant(bool value) {
     put(opaque_, BOOL, value);
 }

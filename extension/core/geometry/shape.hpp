@@ -4,7 +4,9 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <variant>
 #include <vector>
@@ -66,8 +68,15 @@ struct HeightFieldShape {
     std::uint32_t rows = 0;     // samples along z, >= 2
     // Spacing in x (negative: mirrored) and z (unit: meters), factor on the heights in y.
     Vec3 scale{1.0};
+    // hole_height: there is none here, and no triangle that has it for a corner.
     std::shared_ptr<const std::vector<float>> heights;
 };
+
+inline constexpr float hole_height = std::numeric_limits<float>::max();
+// Of heights as others write them: holes are NaN or infinite, or the largest number there is.
+inline bool is_hole(float height) {
+    return !(std::abs(height) < hole_height);
+}
 
 using Shape = std::variant<SphereShape, BoxShape, CapsuleShape, CylinderShape, PlaneShape, ConvexHullShape,
                            MeshShape, HeightFieldShape>;

@@ -16,6 +16,19 @@ bool is_length(double value) {
 }
 
 // An empty text, or why the shape cannot be touched.
+// Whether three corners of any cell are there: those of a triangle.
+bool has_ground(const HeightFieldShape& f) {
+    const auto is_there = [&f](std::size_t vertex) { return !is_hole((*f.heights)[vertex]); };
+    for (std::size_t corner = 0; corner + f.columns + 1 < f.heights->size(); ++corner) {
+        const bool is_cell = (corner + 1) % f.columns != 0;
+        if (is_cell && is_there(corner + 1) && is_there(corner + f.columns) &&
+            (is_there(corner) || is_there(corner + f.columns + 1))) {
+            return true;
+        }
+    }
+    return false;
+}
+
 struct Check {
     std::string operator()(const SphereShape& s) const {
         return is_length(s.radius) ? "" : "the sphere's radius is not a positive length: set it above 0 m";
@@ -74,10 +87,14 @@ struct Check {
         if (!is_length(std::abs(f.scale.x)) || !is_length(f.scale.z) || !std::isfinite(f.scale.y)) {
             return "the height field's spacing is not a length: set its scale above 0 m";
         }
-        const bool finite = std::ranges::all_of(
-            *f.heights, [&](float h) { return std::abs(f.scale.y * static_cast<double>(h)) <= 1e9; });
-        return finite ? ""
-                      : "a height of the height field is not a finite number within 1e9 m: repair its data";
+        const bool sound = std::ranges::all_of(*f.heights, [&](float h) {
+            return is_hole(h) || std::abs(f.scale.y * static_cast<double>(h)) <= 1e9;
+        });
+        if (!sound) {
+            return "a height of the height field is beyond 1e9 m: repair its data";
+        }
+        return !has_ground(f) ? "the height field is nothing but holes: give it heights that are numbers"
+                              : "";
     }
 };
 
@@ -157,15 +174,21 @@ TriangleMesh height_field_mesh(const HeightFieldShape& field) {
     mesh.vertices.reserve(std::size_t{field.columns} * field.rows);
     const double half_width = 0.5 * (field.columns - 1);
     const double half_depth = 0.5 * (field.rows - 1);
+    const auto is_missing = [&](std::uint32_t vertex) { return is_hole((*field.heights)[vertex]); };
+    double height = 0.0;  // of a hole: the last one that there was, which no triangle has
     for (std::uint32_t z = 0; z < field.rows; ++z) {
         for (std::uint32_t x = 0; x < field.columns; ++x) {
-            const double height = (*field.heights)[std::size_t{z} * field.columns + x];
+            const std::uint32_t vertex = z * field.columns + x;
+            height = is_missing(vertex) ? height : static_cast<double>((*field.heights)[vertex]);
             mesh.vertices.push_back(field.scale * Vec3(x - half_width, height, z - half_depth));
         }
     }
     mesh.triangles.reserve(2 * std::size_t{field.columns - 1} * (field.rows - 1));
     const bool mirrored = field.scale.x < 0.0;
     const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        if (is_missing(a) || is_missing(b) || is_missing(c)) {
+            return;
+        }
         mesh.triangles.push_back(mirrored ? std::array{a, c, b} : std::array{a, b, c});
     };
     for (std::uint32_t z = 0; z + 1 < field.rows; ++z) {

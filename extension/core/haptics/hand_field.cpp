@@ -45,6 +45,13 @@ void HandField::take(Nanoseconds now) {
     Model between;
     between.moment.place = next_.place;
     between.moment.velocity = next_.velocity;
+    began_ = over_ == 0 || now - since_ >= 2 * lives ? now : began_;
+    // A force that grows from nothing is not yet that of the script.
+    if (now - began_ > 2 * longest_over) {
+        account();
+    } else {
+        hand_.reset();
+    }
     if (over_ == 0) {
         over_ = longest_over;
     } else {
@@ -163,7 +170,44 @@ Wall HandField::begin_tick(Nanoseconds now) {
     return {std::min(steepest_.stiffness, stiffest), steepest_.damping};
 }
 
-Vec3 HandField::force(const HandMotion& hand, const Wall& safe) {
+// W reaches to where the newest moment was told, the hand has gone on since.
+void HandField::account() {
+    const Vec3 force = at_rest(next_);
+    balance_ -= 0.5 * glm::dot(at_rest(told_) + force, next_.place - told_.place);
+    if (hand_) {
+        const double ahead = glm::dot(force, *hand_ - next_.place);
+        balance_ = std::max(balance_, ahead - tolerated);
+        excess_ = std::max(0.0, balance_ - ahead - tolerated);
+    }
+}
+
+// Over a tick a force that is held is worth its mean: what holding adds, the device's damping takes
+// (core/safety/stiffness_limit.hpp).
+void HandField::observe(const Vec3& place) {
+    const Vec3 given = felt({place, Vec3(0.0)});
+    if (hand_) {
+        const Vec3 way = place - *hand_;
+        balance_ += glm::dot(0.5 * (given_ + given) + damped_, way);
+        excess_ = std::max(0.0, excess_ + glm::dot(damped_, way));
+    } else {
+        balance_ = glm::dot(at_rest(told_), place - told_.place);
+        excess_ = 0.0;
+    }
+    hand_ = place;
+    given_ = given;
+}
+
+// What it takes is known when the hand has gone: nothing at rest.
+Vec3 HandField::damper(const Vec3& velocity, double most_damping) {
+    constexpr double smoothed = 0.2;  // share of a change that comes in a tick
+    const double squared = glm::dot(velocity, velocity);
+    const double power = excess_ / taken_back_within;
+    const double most = excess_ > 0.0 ? most_damping : 0.0;
+    damping_ += smoothed * (std::min(most, power / std::max(squared, 1e-12)) - damping_);
+    return -damping_ * velocity;
+}
+
+Vec3 HandField::force(const HandMotion& hand, const Wall& safe, double most_damping) {
     if (over_ == 0) {
         return Vec3(0.0);
     }
@@ -174,7 +218,10 @@ Vec3 HandField::force(const HandMotion& hand, const Wall& safe) {
                                   (last_.border ? 0.0 : of_last_ * steepness(last_.moment.by_place)),
                               safe.stiffness);
     damped_share_ = safe_share(steepest_.damping, safe.damping);
-    return felt(hand);
+    observe(hand.position);
+    damped_ = damper(hand.velocity, most_damping);
+    is_limited_ = is_limited_ || excess_ > 0.0;
+    return felt(hand) + damped_;
 }
 
 Vec3 HandField::felt(const Model& model, const HandMotion& hand) const {

@@ -1,6 +1,8 @@
 // Where a body is and how it moves, and how far apart two such states are.
 #pragma once
 
+#include <cstdint>
+
 #include "core/math/pose.hpp"
 
 namespace tactus {
@@ -38,6 +40,32 @@ bool differs(const BodyMotion& a, const BodyMotion& b, const MotionThreshold& th
 inline Pose displacement(const Pose& from, const Pose& to) {
     const Quat turn = to.rotation * glm::conjugate(from.rotation);
     return {to.position - turn * from.position, turn};
+}
+
+// `was`, with those parts of `pose` that are written: bits 0 to 2 of `axes` for x, y and z of the position,
+// bit 3 for the rotation.
+inline Pose written(const Pose& was, const Pose& pose, std::uint32_t axes) {
+    Pose now{was.position, (axes >> 3 & 1u) != 0 ? pose.rotation : was.rotation};
+    for (int i = 0; i < 3; ++i) {
+        now.position[i] = (axes >> i & 1u) != 0 ? pose.position[i] : was.position[i];
+    }
+    return now;
+}
+
+// The velocities of `was`, with those parts of `motion` that are written: bits 0 to 2 of `axes` for x, y and
+// z of the linear velocity, bits 3 to 5 for those of the angular one. The pose is that of `was`.
+inline BodyMotion with_velocity(const BodyMotion& was, const BodyMotion& motion, std::uint32_t axes) {
+    BodyMotion now = was;
+    for (int i = 0; i < 3; ++i) {
+        now.linear_velocity[i] = ((axes >> i & 1u) != 0 ? motion : was).linear_velocity[i];
+        now.angular_velocity[i] = ((axes >> (i + 3) & 1u) != 0 ? motion : was).angular_velocity[i];
+    }
+    return now;
+}
+
+// Moved, and turned about its own position.
+inline Pose shifted(const Pose& pose, const Vec3& by, const Quat& turn) {
+    return {pose.position + by, glm::normalize(turn * pose.rotation)};
 }
 
 // The same motion, seen from the parent of a frame that stands still, or from that frame.

@@ -43,7 +43,7 @@ std::vector<std::uint32_t> same_places(std::span<const Vec3> vertices) {
     return first;
 }
 
-void merge_places(TriangleMesh& mesh) {
+std::vector<std::uint32_t> merge_places(TriangleMesh& mesh) {
     const std::vector<std::uint32_t> first = same_places(mesh.vertices);
     std::vector<std::uint32_t> place_of(first.size());
     std::uint32_t kept = 0;
@@ -61,6 +61,7 @@ void merge_places(TriangleMesh& mesh) {
             corner = corner < place_of.size() ? place_of[corner] : nobody;
         }
     }
+    return place_of;
 }
 
 }  // namespace tactus

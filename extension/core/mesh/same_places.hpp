@@ -12,7 +12,8 @@ namespace tactus {
 // By vertex: the first with the same coordinates, itself where there is none before. 0 and -0 are the same.
 std::vector<std::uint32_t> same_places(std::span<const Vec3> vertices);
 
-// One vertex for each place, in the order of the first ones. An index without a vertex stays one.
-void merge_places(TriangleMesh& mesh);
+// One vertex for each place, in the order of the first ones. An index without a vertex stays one. Returns, by
+// the vertex that there was, the one that it is now.
+std::vector<std::uint32_t> merge_places(TriangleMesh& mesh);
 
 }  // namespace tactus

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 
 #include "core/math/types.hpp"
 #include "core/safety/force_watch.hpp"
@@ -45,6 +46,12 @@ struct DeviceSample {
     bool connected = false;             // false: the sample repeats the last known position
 };
 
+// What the motors give, as it was known to the device's last stage when the loop read it.
+struct DisplayedForce {
+    Vec3 force{0.0};         // in the device's own frame (unit: newtons)
+    std::uint32_t cuts = 0;  // bit i: the force has been cut since the read before, for ForceCut(i)
+};
+
 // Called by the haptic thread once a tick, read before write. Implementations neither allocate, lock, throw
 // nor block in read and write; what takes time (opening, homing) belongs into their own set-up, off the loop.
 class Device {
@@ -63,6 +70,9 @@ public:
 
     // How the loop will tick. The owner's thread, before the first tick that reads this device.
     virtual void set_pace(const LoopPace&) {}
+
+    // Nothing where what is written is what is displayed.
+    virtual std::optional<DisplayedForce> displayed() const { return std::nullopt; }
 
     // Changes only within read().
     virtual DeviceCapabilities capabilities() const { return {}; }

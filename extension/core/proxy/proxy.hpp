@@ -92,7 +92,8 @@ private:
     void ride_bodies(ProxyTick& tick);
     void ride_deformations(ProxyTick& tick);
     bool ride_deformation(int body);
-    int carrier() const;
+    const Touch* carrier() const;
+    bool ride_carrier(const Touch& contact);
 
     const TouchScene& scene() const { return *sphere_.scene; }
     PassedBodies& passed() { return sphere_.surroundings.passed(); }

@@ -101,17 +101,40 @@ private:
 
 }  // namespace
 
-// The moving body that the proxy rests on most.
-int Proxy::carrier() const {
-    int body = -1;
+// The contact with the moving body that the proxy rests on most; null: there is none.
+const Touch* Proxy::carrier() const {
+    const Touch* hardest = nullptr;
     double max_pressure = 0.0;
     for (const Touch& contact : touching()) {
         if (contact.pressure > max_pressure && scene().body(contact.body).moved) {
-            body = contact.body;
+            hardest = &contact;
             max_pressure = contact.pressure;
         }
     }
-    return body;
+    return hardest;
+}
+
+// With the body, and then back on it: a finger does not turn, so its center moves as the body's material at
+// the contact point does. The center was carried as if it were part of the body, by R a of the arm a = r n
+// that leads to it from that point, and rolls back along the surface by R a - a.
+bool Proxy::ride_carrier(const Touch& contact) {
+    const TouchBody& body = scene().body(contact.body);
+    FeatureId stopped_by;
+    const Vec3 carried = to_parent(body.pose, to_local(body.previous, sphere_.position));
+    if (!sphere_.advance(carried - sphere_.position, stopped_by, contact.body).is_free()) {
+        return false;
+    }
+    if (body.pose.rotation != body.previous.rotation) {
+        const Vec3 normal = direction_to_parent(body.pose, direction_to_local(body.previous, contact.normal));
+        const Vec3 back = settings().radius * (contact.normal - normal);
+        const Vec3 along = back - glm::dot(back, normal) * normal;
+        if (sphere_.advance(along, stopped_by).is_free()) {
+            // A surface that bends away is below by s^2 / 2 (1 / r + 1 / R) < s^2 / r, or farther than
+            // friction reaches.
+            sphere_.advance(-glm::dot(along, along) / settings().radius * normal, stopped_by);
+        }
+    }
+    return true;
 }
 
 // The body's triangles on their way since the last tick, where the body was then. False where they leave the
@@ -158,11 +181,10 @@ void Proxy::ride_deformations(ProxyTick& tick) {
 void Proxy::ride_bodies(ProxyTick& tick) {
     bool free = true;
     FeatureId stopped_by;
-    const int carried_by = carrier();
-    if (carried_by >= 0) {
-        const TouchBody& body = scene().body(carried_by);
-        const Vec3 carried = to_parent(body.pose, to_local(body.previous, sphere_.position));
-        free = sphere_.advance(carried - sphere_.position, stopped_by, carried_by).is_free();
+    int carried_by = -1;
+    if (const Touch* const contact = carrier()) {
+        carried_by = contact->body;
+        free = ride_carrier(*contact);
     }
     bool squeezed = !free;
     Surroundings::Push push;

@@ -38,6 +38,9 @@ struct ForceLife {
     Nanoseconds grace = 0;    // from the end of a force until the watchdog takes it from the driver
 };
 
+// A device that answers more seldom gives no force: what it says is too old to push a hand by.
+constexpr Nanoseconds longest_exchange = 2'500'000;
+
 constexpr Nanoseconds shortest_life = 1'500'000;
 constexpr Nanoseconds longest_life = 1'850'000;
 

@@ -25,6 +25,9 @@ constexpr double farthest = 1e6;
 // encoder resolves, and of a stiff wall a few newtons.
 constexpr double longest_stay = 1e-3;
 
+// Slower, it rests: a position that stays is right (unit: meters per second).
+constexpr double resting = 1e-3;
+
 bool is_hands(const Vec3& v) {
     return glm::all(glm::lessThanEqual(glm::abs(v), Vec3(farthest)));
 }
@@ -40,7 +43,10 @@ HandState HandSafety::state_of(const SafetySettings& settings, const SafetySampl
     }
     const double speed = glm::length(sample.velocity);
     const double way = known_ ? glm::distance(sample.position, position_) : 0.0;
-    if (speed > settings.max_speed || way > settings.max_speed * sample.seconds) {
+    const double turned =
+        known_ ? glm::length(turn_vector(sample.rotation * glm::conjugate(rotation_))) : 0.0;
+    if (speed > settings.max_speed || way > settings.max_speed * sample.seconds ||
+        turned > settings.max_turn) {
         return HandState::jumped;
     }
     // A hand that stops dead has still the smoothed velocity of a moment ago.
@@ -56,9 +62,9 @@ HandState HandSafety::state_of(const SafetySettings& settings, const SafetySampl
 
 SafeForce HandSafety::pass(const SafetySettings& settings, const SafetySample& sample) {
     SafeForce safe;
-    stayed_ = known_ && sample.position == position_ && is_hands(sample.velocity)
-                  ? stayed_ + glm::length(sample.velocity) * sample.seconds
-                  : 0.0;
+    const bool stays = known_ && sample.position == position_;
+    const bool moves = is_hands(sample.velocity) && glm::length(sample.velocity) > resting;
+    stayed_ = stays && moves ? stayed_ + glm::length(sample.velocity) * sample.seconds : 0.0;
     safe.state = state_of(settings, sample);
     const bool was_known = known_;
     known_ = safe.state != HandState::disconnected && safe.state != HandState::no_number;

@@ -26,7 +26,7 @@ enum class HandState : std::uint8_t {
     released,      // nobody holds the dead-man button
     disconnected,  // the device does not answer
     no_number,     // it has said what is no place
-    jumped,        // it says that it is, or goes, where no hand can come to in a tick
+    jumped,        // it says that it is, goes or has turned to where no hand can come to in a tick
     frozen,        // it repeats its position, and says that it moves
 };
 
@@ -45,6 +45,7 @@ struct SafetySettings {
     ForceLimits torque_limits{none, none, none};  // the slew in newton meters per second
     double max_torque = 0.0;                      // (unit: newton meters); 0: there is none to give
     double max_speed = none;         // of a hand; faster ones are no readings (unit: meters per second)
+    double max_turn = none;          // of a handle from one reading to the next (unit: radians)
     double ramp = 0.0;               // until the whole force is given (unit: seconds), >= 0
     std::uint32_t dead_man = 0;      // buttons, any of which must be held; 0: none
     bool passive = false;            // observe energy and keep it from being made

@@ -4,6 +4,13 @@
 
 namespace tactus {
 
+bool hand_is_due(const DeadbandSettings& settings, const SaidHand& said) {
+    const bool rests = said.stands && said.acknowledged;
+    const Nanoseconds longest = rests ? settings.longest_silence
+                                      : std::min(settings.longest_silence, from_seconds(longest_hand_guess));
+    return !settings.enabled || said.since_sample >= longest;
+}
+
 bool position_needs_sending(const DeadbandSettings& settings, const Vec3& guessed, const Vec3& actual,
                             const Vec3& velocity) {
     const double allowed = settings.position + settings.position_weber * 0.1 * glm::length(velocity);

@@ -1,5 +1,13 @@
 // What need not be sent, because the far side would guess it: it goes on with the last sample's velocity.
+//
+// The receiver cannot tell a sample that was not needed from one that was lost. So a hand that moves is sent
+// at least every `longest_hand_guess`, and a guess that gets older is a loss: it slows down at once. With
+// velocity v no guess leads farther than v (longest_hand_guess + slow_down_time) from the last sample. A hand
+// that stands is sent until the far side has acknowledged it.
 #pragma once
+
+#include <algorithm>
+#include <cmath>
 
 #include "core/math/body_motion.hpp"
 
@@ -15,10 +23,43 @@ struct DeadbandSettings {
     Nanoseconds longest_silence = 200'000'000;  // then something is sent all the same
 };
 
+// Both sides guess alike, so that these are no settings (unit: seconds).
+inline constexpr double longest_hand_guess = 0.02;
+inline constexpr double slow_down_time = 0.005;
+
+// A guess of a slower hand leads nowhere: less than the fixed deadband (units: meters, radians per second).
+inline constexpr double standing_speed = 1e-3;
+inline constexpr double standing_spin = 0.05;
+
+// For how long the last velocity is taken to have lasted, `seconds` (>= 0) after it (unit: seconds):
+//     g(t) = t for t <= T,    T + s (1 - exp(-(t - T) / s)) after
+inline double guessed_time(double seconds) {
+    const double late = std::max(0.0, seconds - longest_hand_guess);
+    return std::min(seconds, longest_hand_guess) + slow_down_time * -std::expm1(-late / slow_down_time);
+}
+// The share of the velocity that is left then: dg/dt.
+inline double guessed_share(double seconds) {
+    return std::exp(-std::max(0.0, seconds - longest_hand_guess) / slow_down_time);
+}
+
 // Where the far side puts the hand that was at `position` with `velocity`, `seconds` later.
 inline Vec3 guessed_position(const Vec3& position, const Vec3& velocity, double seconds) {
-    return position + velocity * seconds;
+    return position + velocity * guessed_time(seconds);
 }
+
+// `speed`, `spin` >= 0 (units: meters, radians per second).
+inline bool stands(double speed, double spin = 0.0) {
+    return speed < standing_speed && spin < standing_spin;
+}
+
+// What a sender knows about the last sample of a hand.
+struct SaidHand {
+    bool stands = false;
+    bool acknowledged = false;     // the far side has one that says the same
+    Nanoseconds since_sample = 0;  // it was sent so long ago
+};
+// A sample is due, although the guess holds.
+bool hand_is_due(const DeadbandSettings& settings, const SaidHand& said);
 
 bool position_needs_sending(const DeadbandSettings& settings, const Vec3& guessed, const Vec3& actual,
                             const Vec3& velocity);

@@ -18,28 +18,30 @@ struct EnergyFigures {
 };
 
 // Filled by what touch takes from the hand for good: the hand's work less what is stored in the spring of the
-// touch. A release of the spring so never counts as energy that may be spent again. What is spent is taken
-// out before, so that the sum over a contact cannot become positive.
+// touch. A release of the spring so never counts as energy that may be spent again.
+//
+// A force is held for a tick, so that its work is that of the force of the last tick over the displacement in
+// this one: F_(t-1) . (x_t - x_(t-1)). What an added force will do is known only then; it is limited before
+// by what it would do if the hand went on as it does, and what it has done more is a debt.
 class EnergyTank {
 public:
-    // The modelled force has acted for a tick; `stored`: in its spring now (unit: joules).
-    void fill(const Vec3& modelled, const Vec3& hand_velocity, double stored, double seconds, double most) {
-        level_ -= glm::dot(modelled, hand_velocity) * seconds + (stored - stored_);
+    // The hand has gone `way` with the force of the model that was held, and with what was added to it
+    // (units: newtons, meters). `stored`: in the touch's spring now (unit: joules).
+    void fill(const Vec3& modelled, const Vec3& added, const Vec3& way, double stored, double most) {
+        level_ -= glm::dot(modelled + added, way) + (stored - stored_);
         stored_ = stored;
         level_ = std::clamp(level_, -most, most);
     }
 
     // Of an added force, what the tank allows in this tick; the rest of its part along the velocity is left
     // away. With a level E it gives the power E / reserve at most, so that it runs low instead of dry.
-    Vec3 allow(const Vec3& added, const Vec3& hand_velocity, double seconds, double reserve, double most,
-               double& refused) {
+    Vec3 allow(const Vec3& added, const Vec3& hand_velocity, double seconds, double reserve,
+               double& refused) const {
         const double power = glm::dot(added, hand_velocity);
         const double allowed = std::max(0.0, level_) / std::max(reserve, seconds);
         if (power <= allowed) {
-            level_ = std::min(level_ - power * seconds, most);
             return added;
         }
-        level_ -= allowed * seconds;
         refused += (power - allowed) * seconds;
         return added - hand_velocity * ((power - allowed) / glm::dot(hand_velocity, hand_velocity));
     }

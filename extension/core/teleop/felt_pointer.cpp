@@ -47,7 +47,11 @@ Vec3 FeltPointer::feel(const StealthSettings& settings, const FeltInput& in) {
     const double modelled = glm::length(in.modelled);
     const double own_change = glm::distance(in.modelled + hidden_, felt_);
     const double stored = in.stiffness > 0.0 ? 0.5 * modelled * modelled / in.stiffness : 0.0;
-    tank_.fill(in.modelled, in.hand_velocity, stored, in.seconds, settings.tank);
+    // What was held has acted on the way since.
+    const Vec3 way = in.hand_velocity * in.seconds;
+    tank_.fill(felt_ - held_hidden_, held_hidden_, way, stored, settings.tank);
+    energy_.hidden_J += glm::dot(held_hidden_, way);
+    energy_.hand_J += glm::dot(felt_, way);
     if (in.stiffness <= 0.0) {
         tank_.let_go();
     }
@@ -71,8 +75,7 @@ Vec3 FeltPointer::feel(const StealthSettings& settings, const FeltInput& in) {
         if (glm::length(hidden_) < nothing_hidden) {
             hidden_ = Vec3(0.0);
         }
-        hidden_ =
-            tank_.allow(hidden_, in.hand_velocity, in.seconds, tank_reserve, settings.tank, energy_.damped_J);
+        hidden_ = tank_.allow(hidden_, in.hand_velocity, in.seconds, tank_reserve, energy_.damped_J);
         faded_ = std::abs(before - glm::length(hidden_));
     }
     if (hidden_ == Vec3(0.0) && state_ != FeltState::letting_go) {
@@ -81,9 +84,8 @@ Vec3 FeltPointer::feel(const StealthSettings& settings, const FeltInput& in) {
     modelled_before_ = modelled;
     const Vec3 felt = in.modelled + hidden_;
     change_ = felt - std::exchange(felt_, felt);
+    held_hidden_ = hidden_;
     energy_.tank_J = tank_.level();
-    energy_.hidden_J += glm::dot(hidden_, in.hand_velocity) * in.seconds;
-    energy_.hand_J += glm::dot(felt_, in.hand_velocity) * in.seconds;
     return felt_;
 }
 

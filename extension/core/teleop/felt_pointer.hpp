@@ -32,7 +32,7 @@ enum class FeltState : std::uint8_t { together, carried, bridged, letting_go };
 
 struct FeltInput {
     Vec3 modelled{0.0};       // by the model as it is now (unit: newtons)
-    Vec3 hand_velocity{0.0};  // (unit: meters per second)
+    Vec3 hand_velocity{0.0};  // mean since the last tick (unit: meters per second)
     double stiffness = 0.0;   // of what is touched (unit: newtons per meter); 0: nothing is
     double seconds = 0.0;     // of a tick
 };
@@ -64,8 +64,9 @@ private:
     double fading(const StealthSettings& settings, const FeltInput& input, double fallen) const;
 
     Vec3 hidden_{0.0};
-    Vec3 felt_{0.0};    // one tick ago (unit: newtons)
-    Vec3 change_{0.0};  // of what is felt, in the last tick (unit: newtons)
+    Vec3 held_hidden_{0.0};  // of felt_, what was hidden (unit: newtons)
+    Vec3 felt_{0.0};         // one tick ago (unit: newtons)
+    Vec3 change_{0.0};       // of what is felt, in the last tick (unit: newtons)
     FeltState state_ = FeltState::together;
     DriftRate drift_;               // of what corrections bring
     double modelled_before_ = 0.0;  // size of the modelled force, one tick ago (unit: newtons)

@@ -11,9 +11,9 @@
 // `catch_up_seconds`, and the hand moves no faster than `catch_up_speed` meanwhile (or than it moves itself).
 // When nothing is there to be played the last sample is held.
 //
-// With `sparse`, missing is the rule (deadband): the last sample received is carried on with its velocity for
-// at most `guess_seconds`, and nothing waits: the packet that was on its way for the shortest time sets the
-// pace.
+// With `sparse`, missing is the rule (deadband): the last sample received is carried on with its velocity as
+// deadband.hpp says, held after `guess_seconds`, and nothing waits: the packet that was on its way for the
+// shortest time sets the pace.
 //
 // What cannot be is not believed (sequence_guard.hpp).
 //
@@ -32,6 +32,7 @@
 
 #include "core/math/body_motion.hpp"
 #include "core/math/types.hpp"
+#include "core/teleop/deadband.hpp"
 #include "core/teleop/playing.hpp"
 #include "core/teleop/playout_lag.hpp"
 #include "core/teleop/sample_ring.hpp"
@@ -67,6 +68,9 @@ public:
         lag_.set({ratio_, settings.depth, settings.sparse, ticks(PlayoutLag::stretch_seconds)});
     }
     const BufferCounts& counts() const { return counts_; }
+    // Sparse: whether the hand was not there, as what was played last says: it is guessed, or on its way from
+    // where it was when some were missing.
+    bool leads() const { return settings_.sparse && (led_ || guesses()); }
     // Samples between the one played last and the newest one.
     std::uint64_t depth() const {
         return ring_.newest() > played_.sequence ? ring_.newest() - played_.sequence : 0;
@@ -153,6 +157,15 @@ private:
     }
     std::uint64_t sequence_at(double head) const {
         return base_ + static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(head + tiny)));
+    }
+
+    // A hand that stands is where it was, however long ago that was said.
+    bool guesses() const {
+        double spin = 0.0;
+        if constexpr (TurningSample<Sample>) {
+            spin = glm::length(anchor_.spin);
+        }
+        return guessed_for_ > 1.5 * settings_.seconds && !stands(glm::length(anchor_.velocity), spin);
     }
 
     void forget() {
@@ -275,15 +288,16 @@ private:
             latest && latest->sequence > anchor_.sequence) {
             anchor_ = *latest;
         }
-        const double carried = (head_ - place(anchor_.sequence)) * settings_.sample_seconds;
+        const double carried = std::max(0.0, (head_ - place(anchor_.sequence)) * settings_.sample_seconds);
         const bool exact = anchor_.sequence == turn && carried < tiny;
+        guessed_for_ = carried;
         played_ = anchor_;
         played_.sequence = turn;
-        played_.position =
-            anchor_.position + anchor_.velocity * std::clamp(carried, 0.0, settings_.guess_seconds);
+        played_.position = guessed_position(anchor_.position, anchor_.velocity, carried);
+        played_.velocity *= guessed_share(carried);
         if constexpr (TurningSample<Sample>) {
-            played_.rotation =
-                turn_by(anchor_.spin, std::clamp(carried, 0.0, settings_.guess_seconds)) * anchor_.rotation;
+            played_.rotation = turn_by(anchor_.spin, guessed_time(carried)) * anchor_.rotation;
+            played_.spin *= guessed_share(carried);
         }
         if (carried > settings_.guess_seconds) {
             stop();
@@ -306,16 +320,15 @@ private:
     // Where the hand went on while nothing was heard it is led there. `first`: there is no hand yet.
     void limit_speed(bool first) {
         const Sample before = std::exchange(out_, played_);
+        led_ = false;
         if (first) {
             return;
         }
-        const bool is_slower = limit_way(before.position);
+        led_ = limit_way(before.position);
         if constexpr (TurningSample<Sample>) {
-            if (limit_turn(before.rotation)) {
-                return;
-            }
+            led_ = limit_turn(before.rotation) || led_;
         }
-        if (!is_slower && catching_up_ == 0.0 && held_for_ == 0) {
+        if (!led_ && catching_up_ == 0.0 && held_for_ == 0) {
             slewing_ = false;
         }
     }
@@ -358,14 +371,16 @@ private:
     bool playing_ = false;
     bool continues_ = false;  // a hand has been played before: what begins is led on from there
     std::uint64_t tick_ = 1;
-    std::uint64_t base_ = 0;  // the sequence that places count from
-    double clock_ = 0.0;      // place of a sample that would come now after no time (unit: samples)
-    double head_ = 0.0;       // place that is played
-    bool stands_ = false;     // the head has not moved in this tick
-    Sample played_{};         // at the head
-    double fraction_ = 0.0;   // of the head beyond played_.sequence
-    Sample anchor_{};         // sparse: the last one that was received and whose turn has come
-    Sample out_{};            // played_, led there no faster than a hand moves
+    std::uint64_t base_ = 0;    // the sequence that places count from
+    double clock_ = 0.0;        // place of a sample that would come now after no time (unit: samples)
+    double head_ = 0.0;         // place that is played
+    bool stands_ = false;       // the head has not moved in this tick
+    Sample played_{};           // at the head
+    double fraction_ = 0.0;     // of the head beyond played_.sequence
+    Sample anchor_{};           // sparse: the last one that was received and whose turn has come
+    double guessed_for_ = 0.0;  // sparse: in the last tick (unit: seconds)
+    bool led_ = false;          // by limit_speed(), in the last tick
+    Sample out_{};              // played_, led there no faster than a hand moves
 
     std::uint64_t behind_for_ = 0, held_for_ = 0;  // (unit: ticks)
     double catching_up_ = 0.0;                     // samples more in a tick; 0: it does not

@@ -87,31 +87,24 @@ Vec3 OperatorPassivity::force(Passivity scheme, const PassivitySettings& setting
     return force;
 }
 
-// What the newest answer says about the far end: its wave, and the energy it has taken in. What was lost in
-// between is no energy, and a wave of the smaller of its neighbours.
+// What the newest answer says about the far end: its wave, and the energy it has taken in. A wave that was
+// lost is no energy.
 void OperatorPassivity::hear(Passivity scheme, const PassivitySettings& settings, const In& in) {
     if (in.far_sample <= now_.heard) {
         return;
     }
-    const Past* const then = past(in.far_sample);
-    const Past* const before = past(now_.heard);
-    if (then && before) {
-        // The far hand went as the operator's did; of the forces on this way, the one that took in least.
-        const Vec3 way = then->hand - before->hand;
-        const double held = glm::dot(now_.far_force, way);
-        const double other = in.far_sample == now_.heard + 1 ? held : glm::dot(in.far_force, way);
-        const double taken = std::max(0.0, std::min(held, other));
+    if (now_.heard != 0) {
+        const double taken = std::max(0.0, in.far_taken - now_.far_taken);
         now_.far_in += taken;
         now_.tank += scheme == Passivity::two_layers ? settings.shared * taken : 0.0;
     }
-    if (then) {
-        const Vec3 wave = then->wave + std::sqrt(2.0 / settings.impedance) * in.far_force;
-        const double lost = now_.heard != 0 ? static_cast<double>(in.far_sample - now_.heard - 1) : 0.0;
-        const double least = std::min(glm::dot(wave, wave), glm::dot(now_.wave, now_.wave));
-        now_.wave_energy += 0.5 * in.seconds * (glm::dot(wave, wave) + lost * least);
+    if (const Past* const then = past(in.far_sample)) {
+        const Vec3 wave = free_reflection * then->wave +
+                          ((1.0 + free_reflection) / std::sqrt(2.0 * settings.impedance)) * in.far_force;
+        now_.wave_energy += 0.5 * in.seconds * glm::dot(wave, wave);
         now_.wave = wave;
     }
-    now_.far_force = in.far_force;
+    now_.far_taken = in.far_taken;
     now_.heard = in.far_sample;
 }
 
@@ -179,18 +172,19 @@ Vec3 FarPassivity::hand(Passivity scheme, const PassivitySettings& settings, con
         operator_force_ = in.force;
         sample_ = in.sample;
     }
+    const Vec3 before = own_;
     if (scheme == Passivity::none) {
         own_ = in.hand;
     } else {
         // Of one sample to the next, the force was held and the hand went its way.
-        const double taken = in.sample == sample_ + 1
-                                 ? std::max(0.0, -glm::dot(operator_force_, in.hand - operator_hand_))
-                                 : 0.0;
+        const bool is_known = in.is_exact && was_exact_ && in.sample == sample_ + 1;
+        const double taken =
+            is_known ? std::max(0.0, -glm::dot(operator_force_, in.hand - operator_hand_)) : 0.0;
         operator_in_ += taken;
         tank_ += settings.shared * taken;
         switch (scheme) {
             case Passivity::wave_variables:
-                own_ += wave_way(settings, in);
+                own_ += wave_way(settings, in, in.sample > sample_ ? in.sample - sample_ : 0);
                 break;
             case Passivity::time_domain:
                 own_ += yielding_way(settings, in);
@@ -200,16 +194,32 @@ Vec3 FarPassivity::hand(Passivity scheme, const PassivitySettings& settings, con
                 break;
         }
     }
+    const double taken_here = std::max(0.0, glm::dot(in.own_force, own_ - before));
+    taken_ += taken_here;
+    tank_ -= scheme == Passivity::two_layers ? settings.shared * taken_here : 0.0;
     operator_hand_ = in.hand;
     operator_force_ = in.force;
     sample_ = in.sample;
+    was_exact_ = in.is_exact;
     return own_;
 }
 
-Vec3 FarPassivity::wave_way(const PassivitySettings& settings, const In& in) const {
+// Of several samples at once the waves are those of their mean, which has no more energy than they had. What
+// is played in one tick is scaled so that it has no more than has come.
+Vec3 FarPassivity::wave_way(const PassivitySettings& settings, const In& in, std::uint64_t ticks) {
     const double b = settings.impedance;
     // sqrt(2/b) u = x' + F / b, and F = -f.
-    Vec3 way = in.hand - operator_hand_ + (in.own_force - in.force) * (in.seconds / b);
+    Vec3 wave = (in.hand - operator_hand_) - in.force * (in.seconds / b);  // sqrt(2/b) u dt
+    const double per_square = 0.25 * b / in.seconds;                       // |u|^2 dt / 2 of that
+    const double passed = std::max<double>(1.0, static_cast<double>(ticks));
+    wave_energy_ += ticks > 0 ? per_square * glm::dot(wave, wave) / passed : 0.0;
+    const double energy = per_square * glm::dot(wave, wave);
+    if (energy > wave_energy_) {
+        wave *= std::sqrt(std::max(0.0, wave_energy_) / energy);
+    }
+    wave_energy_ -= per_square * glm::dot(wave, wave);
+    // b / (b + d) = (1 + r) / 2.
+    Vec3 way = 0.5 * (1.0 + free_reflection) * (wave + in.own_force * (in.seconds / b));
     if (in.own_force == Vec3(0.0)) {
         // Nothing is pressed: where it has drifted to costs nothing to put right.
         way += (in.hand - own_ - way) * std::min(1.0, settings.drift_rate * in.seconds);
@@ -242,8 +252,8 @@ Vec3 FarPassivity::tank_way(const PassivitySettings& settings, const In& in) {
         way += h * ((given - allowed) / size2);
         given = allowed;
     }
-    // What is taken in here is in the tank, less what the operator's end counts as its share of it.
-    tank_ -= given + settings.shared * std::max(0.0, glm::dot(h, in.hand - operator_hand_));
+    // What is taken in here is in the tank, less what the operator's end is told of it.
+    tank_ -= given;
     return way;
 }
 

@@ -1,16 +1,20 @@
 // Traditional touch that cannot make energy, whatever the delay: the schemes of the field, at both ends.
 //
 // Both ends are ports: the operator's hand gives the link a velocity and is given a force; the far hand is
-// moved by the link and feels the environment's force h. Nothing more is sent than without a scheme: what the
-// operator sends (place, force on the hand) and what the far side sends (force, the sample it answers) lets
-// either end work out the other's waves and energies.
+// moved by the link and feels the environment's force h. The work at a port is that of the force that was
+// held over the displacement since; passive is what both ports together are given, not either alone. The far
+// end tells how much energy it has taken in: its hand yields, so that the operator cannot work that out. All
+// else follows from what is sent without a scheme.
 //
 //   wave variables  Niemeyer and Slotine 1991. With wave impedance b and F = -f the hand's force on the link:
 //                   u = (b x' + F) / sqrt(2b) goes there, w = (b x' - F) / sqrt(2b) comes back. Decoded,
 //                       far hand   x' = sqrt(2/b) u + h / b,    w = u + sqrt(2/b) h
 //                       operator   f = sqrt(2b) w - b x'
-//                   A delay of |u|^2/2 and |w|^2/2 makes no energy. What is smoothed or held is scaled so
-//                   that no more of it is played than has come.
+//                   A free far hand would return all of u, which goes to and fro for long: it is damped by
+//                   d = b (1 - r) / (1 + r) besides, so that
+//                       x' = (sqrt(2b) u + h) / (b + d),    w = r u + (1 + r) h / sqrt(2b)
+//                   and of a wave the share r comes back. A delay of |u|^2/2 and |w|^2/2 makes no energy.
+//                   What is smoothed or held is scaled so that no more of it is played than has come.
 //   time domain     Ryu, Artigas and Preusche 2010, after Hannaford and Ryu 2002. Each end splits its energy
 //                   into what goes in and what comes out. What has come out may not exceed what the other
 //                   end has taken in, as last heard: else the operator's end damps, alpha = dE / (v^2 dt),
@@ -30,6 +34,9 @@
 #include "core/math/types.hpp"
 
 namespace tactus {
+
+// Of a wave, what a free far hand returns: r above. 1: it is not damped; 0: nothing, and d = b.
+inline constexpr double free_reflection = 0.5;
 
 enum class Passivity : std::uint8_t { none, wave_variables, time_domain, two_layers };
 
@@ -60,6 +67,7 @@ public:
         Vec3 far_force{0.0};  // (unit: newtons)
         std::uint64_t far_sample = 0;
         double seconds = 0.001;  // of a tick
+        double far_taken = 0.0;  // FarPassivity::taken(), as heard with it (unit: joules)
     };
 
     // The force on the hand in this tick (unit: newtons).
@@ -92,7 +100,7 @@ private:
         Vec3 played{0.0};        // wave, in this tick
         std::uint64_t sample = 0;
         std::uint64_t heard = 0;  // the newest sample that was answered
-        Vec3 far_force{0.0};      // with it
+        double far_taken = 0.0;   // In::far_taken, as heard last (unit: joules)
         double far_in = 0.0;      // taken in at the far end, as heard (unit: joules)
         Vec3 wave{0.0};           // that has come last
         Vec3 smooth{0.0};
@@ -124,14 +132,25 @@ public:
         Vec3 force{0.0};           // on the operator's hand (unit: newtons)
         Vec3 own_force{0.0};       // h, on the hand here one tick ago (unit: newtons)
         double seconds = 0.001;
+        // It is the operator's, and nothing in between: what that has taken in since the last one is known.
+        bool is_exact = true;
     };
 
     // Where the far hand goes in this tick (unit: meters).
     Vec3 hand(Passivity scheme, const PassivitySettings& settings, const In& in);
-    void reset() { *this = {}; }
+    // The hand has been held back, and is there now.
+    void went(const Vec3& hand) { own_ = hand; }
+    // What this end has taken in from the environment so far (unit: joules), for the operator's. Outlasts
+    // reset().
+    double taken() const { return taken_; }
+    void reset() {
+        const double taken = taken_;
+        *this = {};
+        taken_ = taken;
+    }
 
 private:
-    Vec3 wave_way(const PassivitySettings& settings, const In& in) const;
+    Vec3 wave_way(const PassivitySettings& settings, const In& in, std::uint64_t ticks);
     Vec3 yielding_way(const PassivitySettings& settings, const In& in);
     Vec3 tank_way(const PassivitySettings& settings, const In& in);
 
@@ -143,6 +162,9 @@ private:
     double operator_in_ = 0.0;  // taken in at the operator's end, as heard (unit: joules)
     double out_ = 0.0;          // given to the environment (unit: joules)
     double tank_ = 0.0;
+    double taken_ = 0.0;
+    double wave_energy_ = 0.0;  // that has come and has not been played (unit: joules)
+    bool was_exact_ = false;
 };
 
 }  // namespace tactus

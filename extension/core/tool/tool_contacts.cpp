@@ -101,8 +101,14 @@ void ToolSurroundings::collect(const Pose& pose, const RigidMotion& motion, doub
         return std::min(way + turn * arms_[i], most) + window_share * skin_;
     };
     work.spend(static_cast<std::int64_t>(hoods_.size()) / spheres_at_a_time);
-    for (const std::uint32_t i : spheres_where([&](std::size_t k) { return room_[k] < window_of(k); })) {
+    const std::span<const std::uint32_t> near =
+        spheres_where([&](std::size_t k) { return room_[k] < window_of(k); });
+    const auto first = static_cast<std::size_t>(std::ranges::lower_bound(near, next_look_) - near.begin());
+    next_look_ = 0;
+    for (std::size_t k = 0; k < near.size(); ++k) {
+        const std::uint32_t i = near[(first + k) % near.size()];
         if (work.is_gone()) {
+            next_look_ = i;
             return;
         }
         look_at_sphere(i, pose, window_of(i), care, contacts, work);

@@ -69,8 +69,10 @@ void ToolProxy::recall(const ToolMemory& memory, const TouchScene& scene) {
     at_rest_ = false;
 }
 
+// What its spheres know of what is around them holds wherever the hand goes: where one tick's work does not
+// suffice for all of them, the next one looks at the others.
 ToolTick ToolProxy::appear(const Pose& hand) {
-    around_.forget();
+    around_.went(motion_between(pose_, hand));
     around_.begin_tick(*scene_, settings_.mask, hand, 0.0);
     give_work(2 * settings_.max_work);
     pose_ = start_ = hand;
@@ -89,6 +91,14 @@ double ToolProxy::way_since(const Pose& from) const {
     return length_of(lifted(motion_between(from, pose_), length_));
 }
 
+// The tick's first look leaves work for a step: with whatever contacts it has found, sweeps keep the tool
+// outside. False where it has not come to its end.
+bool ToolProxy::look_around(const RigidMotion& pull, double far, bool is_first) {
+    const WorkShare look(work_, is_first ? work_given_ * 3 / 5 : work_.left());
+    around_.collect(pose_, pull, far, contacts_, work_, at_rest_);
+    return !work_.is_gone();
+}
+
 void ToolProxy::descend(const Pose& hand, ToolTick& tick) {
     const double least = least_step * skin();
     const Pose from = pose_;
@@ -101,7 +111,7 @@ void ToolProxy::descend(const Pose& hand, ToolTick& tick) {
     double ahead = farthest;
     for (int stalls = 0; stalls < max_stalls;) {
         const RigidMotion pull = motion_between(pose_, hand);
-        around_.collect(pose_, pull, ahead + at_least, contacts_, work_, at_rest_);
+        const bool sees_all = look_around(pull, ahead + at_least, tick.steps == 0);
         const Plan next = plan(pull);
         if (work_.is_gone() || !next.possible) {
             break;
@@ -109,12 +119,15 @@ void ToolProxy::descend(const Pose& hand, ToolTick& tick) {
         slid = slid || next.slides;
         tick.residual = length_of(next.motion);
         keep_touches(next.holding);
+        if (!sees_all && tick.residual <= least) {
+            break;  // the next tick looks at the others
+        }
         if (tick.residual <= least && !std::exchange(at_rest_, true)) {
             continue;  // only with all that it touches
         }
         at_rest_ = tick.residual <= least;
         const bool is_held = next.holding.push_count > 0;
-        ended = at_rest_ || (is_held && tick.residual <= left_over * way_since(from));
+        ended = sees_all && (at_rest_ || (is_held && tick.residual <= left_over * way_since(from)));
         if (ended || tick.steps == settings_.max_steps) {
             break;
         }
@@ -136,7 +149,7 @@ void ToolProxy::descend(const Pose& hand, ToolTick& tick) {
 
 // It ends no farther from the hand than it is after its ride (unit: meters).
 double ToolProxy::farthest_to_go() const {
-    const double ridden = farthest_ride * (shape().reach + length_);
+    const double ridden = longest_ride() + farthest_ride * length_;
     return 2.0 * (length_of(lifted(motion_between(pose_, hand_), length_)) + ridden);
 }
 
@@ -169,7 +182,7 @@ bool ToolProxy::begin(const TouchScene& scene, const Pose& given_hand, ToolTick&
     const bool other_material =
         std::exchange(material_changes_, scene.material_changes()) != scene.material_changes();
     tick.jumped = std::exchange(is_changed_, false) || other_scene || other_material;
-    around_.begin_tick(scene, settings_.mask, pose_, farthest_to_go(), farthest_ride * shape().reach);
+    around_.begin_tick(scene, settings_.mask, pose_, farthest_to_go(), longest_ride());
     if ((other_scene && is_entered()) || !ride()) {
         tick = appear(hand);
         tick.status |= tool_squeezed;

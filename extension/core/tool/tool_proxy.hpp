@@ -153,6 +153,7 @@ private:
     double free_share(const RigidMotion& motion, int except = -1);
     void go_free(const RigidMotion& motion, int except);
     double farthest_to_go() const;
+    double longest_ride() const;
     bool ride();
     void take_along(const RigidMotion& motion, int body, double& taken);
     RigidMotion way_with(int body) const;
@@ -162,6 +163,7 @@ private:
     std::span<const ToolTouch>::iterator hardest_touch() const;
     int carrier() const;
     double way_since(const Pose& from) const;
+    bool look_around(const RigidMotion& pull, double far, bool is_first);
     void descend(const Pose& hand, ToolTick& tick);
     Plan plan(const RigidMotion& pull);
     bool slips(const NearestMotion& held) const;

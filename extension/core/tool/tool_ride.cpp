@@ -66,10 +66,19 @@ int ToolProxy::carrier() const {
     return hardest == touching().end() ? -1 : hardest->body;
 }
 
+// In this tick (unit: meters).
+double ToolProxy::longest_ride() const {
+    double fastest = 0.0;
+    for (const int index : scene_->moved_bodies()) {
+        fastest = std::max(fastest, scene_->body(index).moved_by);
+    }
+    return farthest_ride * shape().reach + std::min(fastest, fastest_way);
+}
+
 // As far as there is room, and no farther than a tick may: `taken` is how far all together have led.
 void ToolProxy::take_along(const RigidMotion& motion, int body, double& taken) {
     taken += around_.farthest_way(motion);
-    if (taken <= farthest_ride * shape().reach) {
+    if (taken <= longest_ride()) {
         go_free(motion, body);
     }
 }
@@ -90,7 +99,7 @@ bool ToolProxy::ride() {
         take_along(way_with(carries), carries, taken);
     }
     const bool has_room = ride_bodies(before, taken);
-    return ride_forms(taken) && has_room && taken <= farthest_ride * shape().reach;
+    return ride_forms(taken) && has_room && taken <= longest_ride();
 }
 
 // However many move, half of the work is left for what gives, and for the tool's own way. What could not be

@@ -24,8 +24,9 @@ constexpr int max_tolerances = 32;
 constexpr double play = 0.3;
 // A patch whose middle lies no farther out is not given a sphere of its own: its halves may be covered.
 constexpr double nearly_covered = 0.8;
-// Smaller spheres are not made: near a sharp edge they shrink to nothing.
-constexpr double min_radius = 0.05;
+// Smaller spheres are not made: near a sharp edge they shrink to nothing. Sheets and needles are as thin as
+// they are, whatever the tolerance.
+constexpr double min_radius = 1e-3;
 constexpr double smallest_patch = 0.5;
 // A sphere this many times larger meets a hollow of nearly its own form everywhere at once, and costs more
 // than several small ones. Where a few large ones do, as for a ball, they are taken.
@@ -72,9 +73,15 @@ Vec3 nearest_point(const TriangleTree& tree, const Vec3& to) {
     return best;
 }
 
+bool is_inside(const TriangleTree& tree, const Vec3& point) {
+    WorkBudget enough(std::int64_t{1} << 40);
+    return tree.winding(point, enough).inside();
+}
+
 // The ball that touches the surface in `point` shrinks until nothing is farther inside than `slack` (Ma, Bae
 // and Choi 2012), and then by what is. Through the point and q, with its centre at point - R n:
-// R = |point - q|^2 / (2 n . (point - q)).
+// R = |point - q|^2 / (2 n . (point - q)). Where the solid is thinner than the slack, the center may lie
+// beyond its far side, with nothing near it: that ball is not inscribed, and shrinks on.
 ToolSphere shrunk_ball(const TriangleTree& tree, const Vec3& point, const Vec3& normal, double radius,
                        double slack) {
     constexpr int max_rounds = 40;
@@ -83,8 +90,8 @@ ToolSphere shrunk_ball(const TriangleTree& tree, const Vec3& point, const Vec3& 
     for (int round = 0; round < max_rounds; ++round) {
         const Vec3 q = nearest_point(tree, center);
         room = glm::distance(center, q);
-        if (room >= radius - slack) {
-            break;
+        if (room >= radius - slack && is_inside(tree, center)) {
+            return {center, std::min(radius, room)};
         }
         const Vec3 apart = point - q;
         const double across = glm::dot(normal, apart);
@@ -92,7 +99,7 @@ ToolSphere shrunk_ball(const TriangleTree& tree, const Vec3& point, const Vec3& 
         radius = std::min(next, radius * (1.0 - 1e-6));
         center = point - normal * radius;
     }
-    return {center, std::min(radius, room)};
+    return {center, is_inside(tree, center) ? std::min(radius, room) : 0.0};
 }
 
 double distance_outside(const Vec3& point, const ToolSphere& sphere) {
@@ -156,7 +163,7 @@ public:
 
     // Empty where the spheres would be too many.
     std::shared_ptr<ToolShape> cover(std::vector<Patch> patches) {
-        std::vector<Patch> given_up;
+        std::vector<Patch> done;  // covered, or given up
         while (!patches.empty()) {
             constexpr std::size_t batch = 128;
             const std::size_t stride = (patches.size() + batch - 1) / batch;
@@ -170,25 +177,24 @@ public:
                 const Patch& patch = patches[i];
                 const auto fresh = std::span(spheres_).subspan(known);
                 if (distance_outside(patch, fresh) <= tolerance_) {
+                    done.push_back(patch);
                     continue;
                 }
                 if (i % stride != 0) {
                     left.push_back(patch);
                 } else if (longest_edge(patch) > smallest_patch * tolerance_) {
                     for (const Patch& half : halves_of(patch)) {
-                        if (distance_outside(half, std::span(spheres_)) > tolerance_) {
-                            left.push_back(half);
-                        }
+                        (distance_outside(half, std::span(spheres_)) > tolerance_ ? left : done)
+                            .push_back(half);
                     }
                 } else {
-                    given_up.push_back(patch);
+                    done.push_back(patch);
                 }
             }
             patches = std::move(left);
         }
         auto shape = std::make_shared<ToolShape>();
-        shape->tolerance = tolerance_;
-        for (const Patch& patch : given_up) {
+        for (const Patch& patch : done) {
             shape->tolerance = std::max(shape->tolerance, distance_outside(patch, std::span(spheres_)));
         }
         shape->spheres = std::move(spheres_);

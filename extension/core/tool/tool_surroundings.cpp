@@ -195,12 +195,21 @@ double ToolSurroundings::straight_share(const RigidMotion& motion) const {
     return turn > 0.0 ? least / turn : 1.0;
 }
 
+// Of its tangents the height is linear along the way, and of all others that bound it is concave: nowhere
+// does it lie below the line between both ends.
+double ToolSurroundings::known_share(std::uint32_t sphere, const Vec3& from, const Vec3& to,
+                                     double stop) const {
+    const double begin = hoods_[sphere].least(from) - stop - arrival();
+    const double end = hoods_[sphere].least(to) - stop - arrival();
+    return begin <= 0.0 ? 0.0 : end > 0.0 ? 1.0 : begin / (begin - end);
+}
+
 double ToolSurroundings::sweep_sphere(std::uint32_t index, const Vec3& from, const Vec3& to, double sag,
                                       double limit, int except, WorkBudget& work) {
     const double stop = shape_->spheres[index].radius + stop_share * skin_ + sag;
-    const double arrival = this->arrival();
-    if (std::min(hoods_[index].least(from), hoods_[index].least(to)) > stop + arrival) {
-        return limit;
+    const double known = known_share(index, from, to, stop);
+    if (known >= limit || work.is_gone()) {
+        return std::min(known, limit);
     }
     const double length = glm::distance(from, to);
     const double reach = stop + length + skin_;
@@ -215,7 +224,7 @@ double ToolSurroundings::sweep_sphere(std::uint32_t index, const Vec3& from, con
             limit = length > 0.0 ? std::clamp((to_ball - stop) / length, 0.0, limit) : 0.0;
             return;
         }
-        const SphereWay swept{start, direction_to_local(placed.pose, to - from), stop, arrival};
+        const SphereWay swept{start, direction_to_local(placed.pose, to - from), stop, arrival()};
         const Hit hit = sweep_surface(*placed.part, swept, limit, work);
         if (hit.found) {
             stopped_by_ = {index, part, hit.triangle};
@@ -245,7 +254,7 @@ double ToolSurroundings::strays(const ToolWay& way, double turn, double arm) {
     return std::max(0.0, way.off_chord(arm) - sag_of(turn, arm));
 }
 
-// Nearest first: where the work ends, the others go no farther than the room that they are known to have.
+// Nearest first: where the work ends, the others go no farther than they are known to be free.
 double ToolSurroundings::free_share(const ToolWay& swing, WorkBudget& work, int except) {
     const double way = glm::length(swing.motion.way);
     const double turn = glm::length(swing.motion.turn);
@@ -260,10 +269,6 @@ double ToolSurroundings::free_share(const ToolWay& swing, WorkBudget& work, int 
             const double far = way + turn * arms_[i];
             const double stray = strays(swing, turn, arms_[i]);
             if (room_[i] > limit * far + stray || (room_[i] <= 0.25 * far + stray) != is_near) {
-                continue;
-            }
-            if (work.is_gone()) {
-                limit = far > 0.0 ? std::clamp((room_[i] - stray) / far, 0.0, limit) : 0.0;
                 continue;
             }
             const double sag = std::max(0.0, swing.off_chord(arms_[i]) - sag_share * skin_);

@@ -76,6 +76,7 @@ public:
 
     // The contacts that a motion may meet before its farthest point has gone `far` (unit: meters).
     // `is_exact`: for a tool that is about to rest, all that it touches, as exactly as that can be told.
+    // Where the work is gone before all spheres are looked at, the next look begins with the others.
     void collect(const Pose& pose, const RigidMotion& motion, double far, ToolContacts& contacts,
                  WorkBudget& work, bool is_exact = false);
     // What of the motion is a small enough turn.
@@ -153,6 +154,8 @@ private:
         }
         return {near_.data(), count};
     }
+    // What of the way no surface can be met on, by what its hood remembers.
+    double known_share(std::uint32_t sphere, const Vec3& from, const Vec3& to, double stop) const;
     static double share_until_near(const DeformSweep& sweep, const Vec3& from, const Vec3& to, double room,
                                    double limit, WorkBudget& work);
     double sweep_sphere(std::uint32_t index, const Vec3& from, const Vec3& to, double sag, double limit,
@@ -195,7 +198,9 @@ private:
     std::array<Stop, max_stops> stops_;
     int stop_count_ = 0;
     bool is_first_ = true;  // the tick's next collect()
-    Stop stopped_by_;       // the last sweep
+    // The sphere that the next one begins with: where the work of the last one has ended.
+    std::uint32_t next_look_ = 0;
+    Stop stopped_by_;  // the last sweep
 };
 
 // The tool's place after the motion.

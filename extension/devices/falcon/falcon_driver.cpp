@@ -494,6 +494,9 @@ Driver::Exchange FalconDriver::exchange(ForceSlot& forces, Nanoseconds until, Dr
             reading.at = unanswered_ > 0 ? asked_[0] : now;
             forget_answer();
             reading.sample.connected = report_.homed == 7 && arm_.read(report_, seconds, reading.sample);
+            if (!reading.sample.connected) {
+                forces.taken();  // whether or not the loop sees this reading
+            }
             return Exchange::reading;
         }
         if (now >= until) {

@@ -22,6 +22,17 @@ Vec3 to_device(const Vec3& v) {
 // Amid the workspace, in the base frame (unit: meters).
 constexpr Vec3 middle{0.04, -0.17, 0.16};
 
+// Zeros, which are no rotation, where it is none.
+Quat rotation_of(const JsonValue& turn) {
+    Vec3 axis(0.0);
+    if (!turn.vector(axis) || !turn["w"].has_number()) {
+        return {0.0, 0.0, 0.0, 0.0};
+    }
+    const Vec3 ours = from_device(axis);
+    const Quat rotation(turn["w"].number(), ours.x, ours.y, ours.z);
+    return glm::dot(rotation, rotation) > 0.0 ? glm::normalize(rotation) : Quat(0.0, 0.0, 0.0, 0.0);
+}
+
 constexpr Nanoseconds first_state = 2'000'000'000;
 constexpr Nanoseconds look_again = 2'000'000;
 
@@ -39,13 +50,31 @@ std::string Inverse3Driver::open(const std::atomic<bool>& stop) {
         if (!socket_.receive(text_, look_again)) {
             continue;
         }
-        const JsonValue device = device_in(json_.read(text_));
-        if (device.exists()) {
-            id_ = device["device_id"].text();
+        problem = choose(json_.read(text_));
+        if (problem.empty()) {
             return {};
         }
-        problem = wanted_.empty() ? "Haply's service has no Inverse3: plug it in, with its power"
-                                  : "Haply's service has no Inverse3 " + wanted_;
+    }
+    return problem;
+}
+
+// The first that no other driver has; empty, or why there is none.
+std::string Inverse3Driver::choose(const JsonValue& state) {
+    const JsonValue all = state["inverse3"];
+    const std::string wanted = id_.empty() ? wanted_ : id_;
+    std::string problem = wanted_.empty() ? "Haply's service has no Inverse3: plug it in, with its power"
+                                          : "Haply's service has no Inverse3 " + wanted_;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const std::string id = all[i]["device_id"].text();
+        if (!wanted.empty() && id != wanted) {
+            continue;
+        }
+        if (claim_.take("Inverse3 " + std::to_string(port_) + " " + id)) {
+            id_ = id;
+            return {};
+        }
+        problem =
+            "another HapticDevice has the Inverse3 " + id + ": plug in a second one, or let one node have it";
     }
     return problem;
 }
@@ -56,6 +85,7 @@ void Inverse3Driver::close() {
     }
     socket_.close();
     sent_ = Vec3(0.0);
+    claim_.give_back();
 }
 
 JsonValue Inverse3Driver::device_in(const JsonValue& state) const {
@@ -88,20 +118,15 @@ bool Inverse3Driver::take(const JsonValue& state, DeviceSample& sample) {
     is_powered_ = device["status"]["power_supply"].is_true();
     sample.connected = is_calibrated_ && is_powered_;
     const JsonValue grip = state["wireless_verse_grip"][std::size_t{0}]["state"];
-    if (const JsonValue turn = grip["orientation"]; turn.exists()) {
-        Vec3 axis;
-        if (turn.vector(axis)) {
-            const Vec3 ours = from_device(axis);
-            const Quat rotation(turn["w"].number(), ours.x, ours.y, ours.z);
-            sample.rotation = glm::dot(rotation, rotation) > 0.0 ? glm::normalize(rotation) : sample.rotation;
-        }
-    }
     // One that sleeps repeats what it said before.
     const JsonValue status = state["wireless_verse_grip"][std::size_t{0}]["status"];
     const auto is_not = [&status](const char* name) {
         return status[name].exists() && !status[name].is_true();
     };
     const bool is_awake = !is_not("connected") && !is_not("awake");
+    if (const JsonValue turn = grip["orientation"]; is_awake && turn.exists()) {
+        sample.rotation = rotation_of(turn);
+    }
     sample.buttons = 0;
     const char* const names[] = {"a", "b", "c"};
     for (unsigned i = 0; i < 3; ++i) {
@@ -138,6 +163,9 @@ Driver::Exchange Inverse3Driver::exchange(ForceSlot& forces, Nanoseconds until, 
             const Vec3 force = forces.living(now);
             send(reading.sample.connected ? force : Vec3(0.0));
             forces.given(monotonic_now());
+            if (!reading.sample.connected) {
+                forces.taken();  // whether or not the loop sees this reading
+            }
             return Exchange::reading;
         }
         // A newer force of the loop waits for the next state.

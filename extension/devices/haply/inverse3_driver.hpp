@@ -4,6 +4,7 @@
 // Threads: see driver.hpp.
 #pragma once
 
+#include "devices/device_claim.hpp"
 #include "devices/driver.hpp"
 #include "devices/haply/json_text.hpp"
 #include "devices/haply/web_socket.hpp"
@@ -29,10 +30,12 @@ public:
 
 private:
     JsonValue device_in(const JsonValue& state) const;
+    std::string choose(const JsonValue& state);
     bool take(const JsonValue& state, DeviceSample& sample);
     void send(const Vec3& force);
 
     std::string wanted_, id_;
+    DeviceClaim claim_;
     std::uint16_t port_;
     WebSocket socket_;
     JsonReader json_;

@@ -55,7 +55,10 @@ std::size_t JsonValue::size() const {
     return value_ != nullptr ? reader_->size_(value_) : 0;
 }
 double JsonValue::number() const {
-    return value_ != nullptr && is_number(value_->type) ? reader_->number_(value_) : 0.0;
+    return has_number() ? reader_->number_(value_) : 0.0;
+}
+bool JsonValue::has_number() const {
+    return value_ != nullptr && is_number(value_->type);
 }
 bool JsonValue::is_true() const {
     return value_ != nullptr && value_->type == yes;
@@ -68,7 +71,7 @@ std::string JsonValue::text() const {
 bool JsonValue::vector(Vec3& into) const {
     const JsonValue parts[] = {(*this)["x"], (*this)["y"], (*this)["z"]};
     for (int i = 0; i < 3; ++i) {
-        if (parts[i].value_ == nullptr || !is_number(parts[i].value_->type)) {
+        if (!parts[i].has_number()) {
             return false;
         }
         into[i] = parts[i].number();

@@ -22,6 +22,7 @@ public:
     std::size_t size() const;  // of an array
     bool exists() const { return value_ != nullptr; }
     double number() const;  // 0 where it is none
+    bool has_number() const;
     bool is_true() const;
     std::string text() const;
     // {"x":, "y":, "z":}; false where one of them is no number.

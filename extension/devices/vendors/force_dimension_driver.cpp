@@ -92,11 +92,17 @@ std::string ForceDimensionDriver::open(const std::atomic<bool>&) {
                               ? "no device of Force Dimension is plugged in: plug it in, with its power"
                               : "the device " + wanted_ + " is not plugged in";
     for (int i = 0; i < count && !is_open_; ++i) {
-        if (std::string why = open_one(i); !why.empty()) {
+        if (!claim_.take("Force Dimension " + std::to_string(i))) {
+            problem = "another HapticDevice has the device: plug in a second one, or let one node have it";
+        } else if (std::string why = open_one(i); !why.empty()) {
             problem = std::move(why);
         }
     }
-    return is_open_ ? "" : problem;
+    if (!is_open_) {
+        claim_.give_back();
+        return problem;
+    }
+    return {};
 }
 
 // Empty where it is open now, or is not the one that is wanted.
@@ -147,6 +153,7 @@ void ForceDimensionDriver::close() {
         set(Vec3(0.0), Vec3(0.0));
         dhd_.close(device_);
         is_open_ = false;
+        claim_.give_back();
     }
 }
 
@@ -156,12 +163,18 @@ Driver::Exchange ForceDimensionDriver::exchange(ForceSlot& forces, Nanoseconds u
     forces.wait_for_write(std::min(until, forces.end() != 0 ? forces.end() + 1 : read_at_ + idle_period));
     const Vec3 force = forces.living(monotonic_now());
     if (!set(force, forces.torque())) {
-        return Exchange::lost;
+        return lost();
     }
     forces.given(monotonic_now());
     timer_.sleep_until(std::min(until, forces.next_reading()));
     reading.at = read_at_ = monotonic_now();
-    return read(reading.sample) ? Exchange::reading : Exchange::lost;
+    return read(reading.sample) ? Exchange::reading : lost();
+}
+
+Driver::Exchange ForceDimensionDriver::lost() {
+    const char* const why = dhd_.last_error();
+    why_lost_ = why != nullptr ? why : "";
+    return Exchange::lost;
 }
 
 bool ForceDimensionDriver::read(DeviceSample& sample) {

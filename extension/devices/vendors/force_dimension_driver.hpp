@@ -3,6 +3,7 @@
 // Threads: see driver.hpp. The library's calls wait for the wire.
 #pragma once
 
+#include "devices/device_claim.hpp"
 #include "devices/driver.hpp"
 #include "devices/runtime_library.hpp"
 #include "platform/sleep.hpp"
@@ -21,6 +22,7 @@ public:
     void let_go() override;
     DeviceCapabilities capabilities() const override;
     std::string id() const override { return id_; }
+    std::string why_lost() const override { return why_lost_; }
 
 private:
     struct Functions {
@@ -50,8 +52,10 @@ private:
     std::string open_one(int index);
     bool set(const Vec3& force, const Vec3& torque);
     bool read(DeviceSample& sample);
+    Exchange lost();
 
-    std::string wanted_, id_;
+    std::string wanted_, id_, why_lost_;
+    DeviceClaim claim_;
     RuntimeLibrary library_;
     Functions dhd_;
     WristFunctions wrist_;

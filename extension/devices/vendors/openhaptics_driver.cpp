@@ -4,7 +4,9 @@
 #include <array>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <limits>
 #include <mutex>
+#include <vector>
 
 #include "platform/clock.hpp"
 
@@ -43,7 +45,7 @@ constexpr double millimeters = 1e-3;
 // The library has one for all its devices.
 struct Scheduler {
     std::mutex mutex;
-    int devices = 0;
+    std::vector<const OpenHapticsDriver*> devices;
     bool runs = false;
 };
 Scheduler scheduler;
@@ -93,16 +95,31 @@ std::string OpenHapticsDriver::open(const std::atomic<bool>&) {
     if (std::string problem = load(); !problem.empty()) {
         return problem;
     }
+    if (!claim_.take("OpenHaptics " + wanted_)) {
+        return "another HapticDevice has this device: set 'device_id' to the name of another one in the "
+               "maker's "
+               "set-up";
+    }
     const std::lock_guard lock(scheduler.mutex);
+    // A device comes while the scheduler does not run, which takes the others' forces away.
+    if (std::ranges::any_of(scheduler.devices, [](const auto* other) { return other->gives_force(); })) {
+        return "the device is looked for when the others give no force: let their hands touch nothing for a "
+               "moment";
+    }
     stop_scheduler();
     std::string problem = add_to_scheduler();
-    if (scheduler.devices > 0) {
+    if (!scheduler.devices.empty()) {
         start_scheduler();
     }
     if (const Error error = hd_.get_error(); problem.empty() && error.code != 0) {
         problem = problem_of(error);
     }
     return problem;
+}
+
+bool OpenHapticsDriver::gives_force() const {
+    const ForceSlot* const forces = forces_.load(std::memory_order_acquire);
+    return forces != nullptr && forces->due().looked_at != 0;
 }
 
 // A device comes, and goes, while it does not run.
@@ -118,7 +135,7 @@ std::string OpenHapticsDriver::add_to_scheduler() {
     fault_ = 0;
     is_stopped_ = false;
     task_ = hd_.schedule(serve, this, default_priority);
-    ++scheduler.devices;
+    scheduler.devices.push_back(this);
     return {};
 }
 
@@ -168,6 +185,7 @@ void OpenHapticsDriver::read_capabilities() {
 }
 
 void OpenHapticsDriver::close() {
+    claim_.give_back();
     if (device_ == no_device || hd_.get_error == nullptr) {
         return;
     }
@@ -175,13 +193,13 @@ void OpenHapticsDriver::close() {
     stop_scheduler();
     if (task_ != 0) {
         hd_.unschedule(task_);
-        --scheduler.devices;
+        std::erase(scheduler.devices, this);
     }
     hd_.disable_device(device_);
     device_ = no_device;
     task_ = 0;
     forces_.store(nullptr);
-    if (scheduler.devices > 0) {
+    if (!scheduler.devices.empty()) {
         start_scheduler();
     }
 }
@@ -192,8 +210,11 @@ unsigned OpenHapticsDriver::serve(void* driver) {
 }
 
 void OpenHapticsDriver::serve_frame() {
-    Vec3 position, velocity;
-    std::array<double, 16> transform{};
+    // What the library does not fill in is no number.
+    constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+    Vec3 position(nothing), velocity(nothing);
+    std::array<double, 16> transform;
+    transform.fill(nothing);
     int buttons = 0;
     served_.at = monotonic_now();
     hd_.begin_frame(device_);

@@ -4,6 +4,7 @@
 // copied there, by serve(), on its own thread, which is the one that looks at the forces.
 #pragma once
 
+#include "devices/device_claim.hpp"
 #include "devices/driver.hpp"
 #include "devices/runtime_library.hpp"
 #include "realtime/triple_buffer.hpp"
@@ -60,12 +61,14 @@ private:
     std::string problem_of(const Error& error) const;
     void read_capabilities();
     std::string add_to_scheduler();
+    bool gives_force() const;
     void start_scheduler();
     void stop_scheduler();
     static unsigned serve(void* driver);
     void serve_frame();
 
     std::string wanted_, id_;
+    DeviceClaim claim_;
     RuntimeLibrary library_;
     Functions hd_;
     unsigned device_ = ~0u;

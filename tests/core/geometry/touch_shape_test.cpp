@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <limits>
 
@@ -64,15 +65,35 @@ TEST(TouchShape, RefusesAMeshWithABadVertexByItsNumber) {
               std::string::npos);
 }
 
-TEST(TouchShape, RefusesAHeightFieldOfTheWrongSizeOrWithNan) {
+TEST(TouchShape, RefusesAHeightFieldOfTheWrongSizeOrTooHigh) {
     const auto heights = std::make_shared<const std::vector<float>>(std::vector<float>{0, 1, 2, 3});
     EXPECT_EQ(error_of(HeightFieldShape{2, 2, Vec3(1.0), heights}), "");
     EXPECT_NE(error_of(HeightFieldShape{3, 2, Vec3(1.0), heights}), "");
     EXPECT_NE(error_of(HeightFieldShape{1, 4, Vec3(1.0), heights}), "");
     EXPECT_NE(error_of(HeightFieldShape{2, 2, Vec3(1.0), nullptr}), "");
-    const auto bad = std::make_shared<const std::vector<float>>(
-        std::vector<float>{0, std::numeric_limits<float>::quiet_NaN(), 2, 3});
-    EXPECT_NE(error_of(HeightFieldShape{2, 2, Vec3(1.0), bad}).find("finite"), std::string::npos);
+    const auto bad = std::make_shared<const std::vector<float>>(std::vector<float>{0, 2e9f, 2, 3});
+    EXPECT_NE(error_of(HeightFieldShape{2, 2, Vec3(1.0), bad}).find("beyond 1e9"), std::string::npos);
+}
+
+// As HeightMapShape3D documents it, a sample that is no number is a hole.
+TEST(TouchShape, CitizenAHeightFieldHasHolesWhereItHasNoHeight) {
+    using Limits = std::numeric_limits<float>;
+    for (const float hole :
+         {Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity(), Limits::max(), Limits::lowest()}) {
+        std::vector<float> values(25, 1.0f);
+        values[12] = hole;
+        const HeightFieldShape field{5, 5, Vec3(1.0), std::make_shared<const std::vector<float>>(values)};
+        EXPECT_EQ(error_of(field), "");
+        const TriangleMesh mesh = height_field_mesh(field);
+        EXPECT_EQ(mesh.triangles.size(), 32u - 6u) << hole;
+        for (const auto& triangle : mesh.triangles) {
+            EXPECT_EQ(std::ranges::count(triangle, 12u), 0);
+        }
+        const HeightFieldShape none{
+            2, 2, Vec3(1.0),
+            std::make_shared<const std::vector<float>>(std::vector<float>{0, hole, hole, 1})};
+        EXPECT_NE(error_of(none).find("nothing but holes"), std::string::npos);
+    }
 }
 
 TEST(TouchShape, AMirroredHeightFieldIsTheMirrorImageWithItsFrontUp) {

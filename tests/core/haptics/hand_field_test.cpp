@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 #include <optional>
 
 #include "core/haptics/measured_field.hpp"
@@ -198,10 +199,42 @@ TEST(HandField, AForceThatLeapsOrIsTooSteepMakesNoEnergy) {
                                       lead_arm(ramp, 0.03, -0.02, damping, {safe, 1e9}),
                                       lead_arm(cliff, 0.03, -0.02, damping, {safe, 1e9})}) {
                 EXPECT_LE(led.shake, 3e-3) << safe << " N/m, " << damping;
-                EXPECT_LE(led.made, damping >= 10.0 ? 0.01 : 0.02) << safe << " N/m, " << damping;
+                EXPECT_LE(led.made, 0.01) << safe << " N/m, " << damping;
                 EXPECT_NEAR(led.rests, 0.0, 3e-3) << safe << " N/m, " << damping;
                 EXPECT_TRUE(led.is_limited);
             }
+        }
+    }
+}
+
+// Between two frames the hand has gone on by a part of a detent, or over it.
+TEST(HandField, DetentsMakeNoEnergy) {
+    for (const double length : {5e-3, 1e-2, 2e-2}) {
+        const auto detents = [&](double x) { return std::sin(2.0 * std::numbers::pi * x / length); };
+        for (const double damping : {10.0, 5.0}) {
+            const LedArm led = lead_arm(detents, 0.03, -0.02, damping, {1500.0, 1e9});
+            EXPECT_LE(led.shake, 3e-3) << length << " m, " << damping;
+            EXPECT_LE(led.made, 0.01) << length << " m, " << damping;
+        }
+    }
+}
+
+// The damper takes back what the guess has given too much, and nothing else: energy that a script adds by
+// itself is its to give.
+TEST(HandField, AnEngineThatShakesIsFeltWhole) {
+    HandField field;
+    for (int i = 0; i < 2'000; ++i) {
+        const double force = std::sin(2.0 * std::numbers::pi * 3.0 * 1e-3 * i);
+        const HandMotion hand{{0.01 * force, 0.0, 0.0}, {}};
+        if (i % 16 == 0) {
+            FieldMoment moment = even({force, 0.0, 0.0});
+            moment.place = hand.position;
+            field.set(moment);
+        }
+        const Vec3 now = felt(field, hand, i * tick);
+        EXPECT_FALSE(field.is_limited()) << i;
+        if (i > 100) {
+            EXPECT_NEAR(now.x, force, 0.35) << i << ": a frame late, and no weaker";
         }
     }
 }

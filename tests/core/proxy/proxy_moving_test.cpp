@@ -52,6 +52,26 @@ TEST(ProxyMoving, ATurningBodyCarriesItAround) {
     }
 }
 
+// A finger does not turn. On a drum of radius R that turns by a it goes as far as the drum's material does,
+// R a, and so by the angle R a / (R + r) about the axis; as part of the drum it would go by a.
+TEST(ProxyMoving, OnATurningDrumItRollsBack) {
+    constexpr double drum_radius = 0.2;
+    for (const double step : {1e-4, 1e-3, 0.01}) {
+        TouchRig rig(radius);
+        const int drum = rig.add(SphereShape{drum_radius}, {}, sticky);
+        const double reach = drum_radius + radius;
+        rig.draw({0.0, 0.6, 0.0}, {0.0, reach - 0.01, 0.0}, 10);
+        double gone = 0.0;
+        for (double a = step; a < 0.5; a += step) {
+            gone += step * drum_radius / reach;
+            const Vec3 hand = (reach - 0.01) * Vec3(std::sin(gone), std::cos(gone), 0.0);
+            const ProxyTick tick = rig.tick(hand, drum, {Vec3(0.0), turn(-a, {0.0, 0.0, 1.0})});
+            ASSERT_NEAR(std::atan2(tick.position.x, tick.position.y), gone, 2e-3 * gone + 1e-6) << step;
+            ASSERT_GE(glm::length(tick.position), reach) << step;
+        }
+    }
+}
+
 TEST(ProxyMoving, WithoutFrictionABodySlidesAwayUnderneath) {
     TouchRig rig(radius);
     const int table = rig.add(BoxShape{Vec3(1.0, 0.1, 1.0)});

@@ -393,8 +393,24 @@ TEST(JitterBuffer, SparseDoesNotGuessForEver) {
     for (int i = 0; i < 2000; ++i) {
         buffer.play(out);
     }
-    EXPECT_NEAR(out.position.x, 0.2, 1e-9);
+    EXPECT_NEAR(out.position.x, longest_hand_guess + slow_down_time, 1e-9);
     EXPECT_EQ(out.velocity, Vec3(0.0));
+}
+
+// What has not come after so long is lost: the guess slows down at once.
+TEST(JitterBuffer, SparseSlowsDownAsSoonAsASampleIsMissing) {
+    Buffer buffer(sparse());
+    Sample out;
+    buffer.insert({1, Vec3(0.0), Vec3(0.7, 0.0, 0.0)});
+    double before = 0.0;
+    for (int i = 0; i < 40; ++i) {
+        buffer.play(out);
+        const double step = out.position.x - std::exchange(before, out.position.x);
+        EXPECT_LE(step, 0.0007 + 1e-12);
+        EXPECT_TRUE(i <= 21 || step < 0.0007 * std::exp(-(i - 22) / 5.0)) << i;
+        EXPECT_EQ(buffer.leads(), i >= 2) << i;
+    }
+    EXPECT_LT(out.position.x, 0.7 * 0.025);
 }
 
 TEST(JitterBuffer, SparseGuessesFromWhatComesTooLate) {
@@ -471,7 +487,7 @@ TEST(JitterBuffer, ATurnIsCarriedOnWithItsSpinUntilItIsTooOld) {
     buffer.insert(turned(1, 2.0));
     for (int i = 0; i < 300; ++i) {
         buffer.play(out);
-        const double carried = std::min(1e-3 * i, 0.1);
+        const double carried = guessed_time(1e-3 * i);
         EXPECT_NEAR(angle_between(turned(1, 2.0).rotation, out.rotation), 2.0 * carried, 3e-3) << i;
     }
     EXPECT_EQ(out.spin, Vec3(0.0));

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -314,6 +315,101 @@ TEST(ToolProxy, APegGoesIntoItsHoleFromEveryAngle) {
             EXPECT_EQ(figures.arrivals, 1) << tilt << " " << around;
             EXPECT_EQ(figures.still_way, 0.0) << tilt << " " << around;
         }
+    }
+}
+
+// A block that comes from below at a speed, or from the side, or turning: the tool is driven before it.
+TEST(ToolProxy, CitizenAFastBodyDrivesASmallToolBeforeIt) {
+    for (const double speed : {2.0, 12.0, 25.0, 45.0}) {
+        for (const Vec3& way : {Vec3(0.0, 1.0, 0.0), Vec3(0.8, 0.6, 0.0)}) {
+            ToolRig rig(shared::box(Vec3(0.01)), {1e-3, 200});
+            const Quat turned = glm::angleAxis(std::acos(way.y), Vec3(0.0, 0.0, -1.0));
+            rig.add(shared::box({0.05, 0.05, 0.05}), {1000.0, 0.0, 0.0, 0.0}, {-0.3 * way, turned});
+            rig.tick({});
+            double gone = -0.3;
+            while (gone < 0.2) {
+                gone += 1e-3 * speed;
+                rig.carry(0, {gone * way, turned});
+                const ToolTick tick = rig.tick({});
+                EXPECT_EQ(tick.status & (tool_absent | tool_squeezed), 0u) << speed << " m/s at " << gone;
+                EXPECT_GT(glm::dot(tick.pose.position, way), gone + 0.05) << speed << " m/s at " << gone;
+            }
+        }
+    }
+}
+
+// Beyond what bodies may do in a tick it begins anew, as it did.
+TEST(ToolProxy, CitizenAToolIsNotCarriedFasterThanAPointer) {
+    ToolRig rig(shared::box(Vec3(0.01)), {1e-3, 200});
+    rig.add(shared::box({0.05, 0.05, 0.05}), {1000.0, 0.0, 0.0, 0.0}, {{0.0, -0.3, 0.0}, upright});
+    rig.tick({});
+    std::uint32_t seen = 0;
+    for (double at = -0.3; at < 0.1; at += 0.08) {
+        rig.carry(0, {{0.0, at, 0.0}, upright});
+        seen |= rig.tick({}).status;
+    }
+    EXPECT_NE(seen & (tool_absent | tool_squeezed), 0u);
+}
+
+std::shared_ptr<const ToolShape> fine_peg() {
+    static const auto peg = make_tool_shape(shared::box({0.01, 0.03, 0.01}), {2e-4, 4000}).shape;
+    return peg;
+}
+
+// Five boxes that leave a square hole of 20.1 mm, 30 mm deep, and a hand that goes down into it.
+struct SquareHole {
+    SquareHole() : shape(fine_peg()), proxy(std::make_unique<ToolProxy>(shape, 16, ToolSettings{})) {
+        constexpr double half = 0.01005;
+        constexpr double wall = 0.02;
+        add({wall, 0.015, 2.0 * wall + half}, {half + wall, 0.015, 0.0});
+        add({wall, 0.015, 2.0 * wall + half}, {-half - wall, 0.015, 0.0});
+        add({half, 0.015, wall}, {0.0, 0.015, half + wall});
+        add({half, 0.015, wall}, {0.0, 0.015, -half - wall});
+        add({0.2, 0.05, 0.2}, {0.0, -0.05, 0.0});
+    }
+
+    void add(const Vec3& half_extents, const Vec3& at) {
+        const PlacedShape placed{BoxShape{half_extents}, {}};
+        boxes.push_back(make_touch_shape({&placed, 1}).shape);
+        scene.add(*boxes.back(), {at, upright}, TouchMaterial{1000.0, 0.0, 0.0, 0.0}, 1);
+    }
+
+    ToolTick tick(const Pose& hand) {
+        scene.begin_tick();
+        return proxy->move(scene, hand);
+    }
+
+    std::shared_ptr<const ToolShape> shape;
+    std::vector<std::shared_ptr<const TouchShape>> boxes;
+    TouchScene scene{16, 16};
+    std::unique_ptr<ToolProxy> proxy;
+};
+
+// So many spheres are near a wall that one tick's work does not suffice for a look at all of them.
+TEST(ToolProxy, CitizenAPegOfManySpheresGetsToTheBottomOfItsHole) {
+    SquareHole hole;
+    ASSERT_GT(hole.shape->spheres.size(), 1500u);
+    for (int i = 0; i <= 2000; ++i) {
+        hole.tick({{0.0, 0.07 - 0.045 * std::min(1.0, i / 1000.0), 0.0}, upright});
+    }
+    EXPECT_TRUE(hole.proxy->is_present());
+    EXPECT_NEAR(hole.proxy->pose().position.y, 0.03, 2e-5);
+    EXPECT_NEAR(hole.proxy->pose().position.x, 0.0, 5.1e-5);
+}
+
+// It is there as soon as it is known to be free, however many ticks that takes.
+TEST(ToolProxy, CitizenAToolOfManySpheresAppearsInANarrowPlace) {
+    for (const std::int64_t work : {6000, 12'000}) {
+        SquareHole hole;
+        ToolSettings settings;
+        settings.max_work = work;
+        hole.proxy->set_settings(settings);
+        int ticks = 0;
+        while (!hole.proxy->is_present() && ticks < 500) {
+            hole.tick({{0.0, 0.04, 0.0}, upright});
+            ++ticks;
+        }
+        EXPECT_LT(ticks, 500) << work;
     }
 }
 

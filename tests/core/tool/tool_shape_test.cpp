@@ -92,6 +92,76 @@ TEST(ToolShape, BridgesLinkAllSpheresAndNoneIsOneTooMany) {
     EXPECT_TRUE(bridges_between({}).empty());
 }
 
+// The farthest that any point of the surface lies outside of all spheres, on a grid of each triangle.
+double measured_error(const TriangleMesh& mesh, const ToolShape& shape) {
+    constexpr int steps = 24;
+    double most = 0.0;
+    for (const auto& [a, b, c] : mesh.triangles) {
+        for (int i = 0; i <= steps; ++i) {
+            for (int k = 0; k <= steps - i; ++k) {
+                const double u = static_cast<double>(i) / steps, v = static_cast<double>(k) / steps;
+                const Vec3 point =
+                    u * mesh.vertices[a] + v * mesh.vertices[b] + (1.0 - u - v) * mesh.vertices[c];
+                double least = 1e9;
+                for (const ToolSphere& sphere : shape.spheres) {
+                    least = std::min(least, glm::distance(point, sphere.center) - sphere.radius);
+                }
+                most = std::max(most, least);
+            }
+        }
+    }
+    return most;
+}
+
+double farthest_beyond(const TriangleMesh& mesh, const ToolShape& shape) {
+    Vec3 low(1e9), high(-1e9);
+    for (const Vec3& vertex : mesh.vertices) {
+        low = glm::min(low, vertex);
+        high = glm::max(high, vertex);
+    }
+    double most = -1e9;
+    for (const ToolSphere& sphere : shape.spheres) {
+        const Vec3 above = sphere.center + sphere.radius - high, below = low - sphere.center + sphere.radius;
+        most = std::max({most, above.x, above.y, above.z, below.x, below.y, below.z});
+    }
+    return most;
+}
+
+// A ball about the origin with a ball of air in it.
+TriangleMesh shell(double outer, double inner) {
+    TriangleMesh mesh = shared::icosphere(3, outer);
+    const TriangleMesh hollow = shared::icosphere(3, inner);
+    const auto before = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), hollow.vertices.begin(), hollow.vertices.end());
+    for (const auto& [a, b, c] : hollow.triangles) {
+        mesh.triangles.push_back({before + a, before + c, before + b});
+    }
+    return mesh;
+}
+
+// Of thin solids the ball that is looked for may have its center beyond the far side, where it meets nothing.
+TEST(ToolShape, CitizenSheetsShellsAndNeedlesAreNoLargerThanTheyLook) {
+    const std::pair<TriangleMesh, ToolShapeSettings> cases[] = {
+        {shared::box({0.05, 0.00075, 0.05}), {5e-3, 500}},
+        {shared::box({0.15, 0.001, 0.15}), {5e-3, 500}},
+        {shared::box({0.015, 0.00025, 0.075}), {5e-3, 500}},
+        {shared::box({0.05, 0.00075, 0.05}), {1e-3, 4000}},
+        {shared::box({0.0002, 0.0002, 0.06}), {5e-3, 500}},
+        {shared::peg_mesh(0.0005, 0.1, 12, 1), {5e-3, 500}},
+        {shell(0.05, 0.0495), {5e-3, 500}},
+    };
+    for (const auto& [mesh, settings] : cases) {
+        const ToolShapeResult made = make_tool_shape(mesh, settings);
+        ASSERT_TRUE(made.shape) << made.error;
+        EXPECT_LE(farthest_beyond(mesh, *made.shape), 1e-9) << settings.tolerance;
+        expect_true(mesh, *made.shape);
+        const double measured = measured_error(mesh, *made.shape);
+        EXPECT_LE(measured, made.shape->tolerance + 1e-9);
+        // Measured at some points of each triangle, told for all of it.
+        EXPECT_GE(measured, 0.3 * made.shape->tolerance) << "the error that is told is not the one there is";
+    }
+}
+
 TEST(ToolShape, WithFewSpheresTheToleranceThatIsToldIsLarger) {
     const TriangleMesh box = shared::box({0.02, 0.03, 0.05});
     const ToolShapeResult made = make_tool_shape(box, {1e-4, 60});

@@ -130,6 +130,14 @@ TEST(ForceDimension, ALoopThatIsTooSlowIsGivenNoForceAndAReason) {
     EXPECT_EQ(device.health().text, "");
 }
 
+// Before the loop's first tick, too: its reading was due at a time below zero, for which no kernel waits.
+TEST(ForceDimension, ALoopThatIsTooSlowHasTheDeviceBeforeItsFirstTick) {
+    DriverDevice device(std::make_unique<ForceDimensionDriver>(""));
+    device.set_pace({10 * one_tick, true});
+    EXPECT_TRUE(wait_until([&] { return device.health().readings > 5; }));
+    EXPECT_NE(device.health().text.find("'tick_rate'"), std::string::npos) << device.health().text;
+}
+
 // The owner waits no longer than for a tenth of a second; what the thread uses lives on.
 TEST(ForceDimension, ALibraryThatHangsIsLeftBehindAndThatIsSaid) {
     static std::string told;
@@ -158,6 +166,39 @@ TEST(ForceDimension, ComesBackAfterItWasUnplugged) {
     EXPECT_TRUE(wait_until([&] { return device.health().text.find("plug") != std::string::npos; }));
     dhd().unplugged = false;
     EXPECT_TRUE(tick_until(device, Vec3(0.0), is_connected));
+}
+
+// Whichever call it is: no force, what the library says is said, and it goes on by itself.
+TEST(ForceDimension, ALibraryOfWhichOneCallFailsGivesNoForce) {
+    dhd().has_wrist = true;
+    for (const char* function :
+         {"dhdGetPosition", "dhdGetLinearVelocity", "dhdGetOrientationFrame", "dhdSetForce"}) {
+        DriverDevice device(std::make_unique<ForceDimensionDriver>(""));
+        const auto is_given = [](const auto&) { return values_of(dhd().force).y == 1.0; };
+        ASSERT_TRUE(tick_until(device, {1.0, 0.0, 0.0}, is_given)) << function;
+        dhd().fails = function;
+        EXPECT_TRUE(tick_until(device, {1.0, 0.0, 0.0}, [&](const DeviceSample& sample) {
+            return !sample.connected && values_of(dhd().force) == Vec3(0.0) &&
+                   device.health().text.find("communication error") != std::string::npos;
+        })) << function;
+        dhd().fails = nullptr;
+        EXPECT_TRUE(tick_until(device, {1.0, 0.0, 0.0}, is_given)) << function;
+    }
+    dhd().has_wrist = false;
+}
+
+TEST(ForceDimension, OneDeviceIsHadByOneDriver) {
+    dhd().wrong_calls = 0;
+    auto one = std::make_unique<DriverDevice>(std::make_unique<ForceDimensionDriver>(""));
+    ASSERT_TRUE(tick_until(*one, Vec3(0.0), is_connected));
+    DriverDevice two(std::make_unique<ForceDimensionDriver>(""));
+    EXPECT_TRUE(
+        wait_until([&] { return two.health().text.find("another HapticDevice") != std::string::npos; }));
+    EXPECT_TRUE(
+        tick_until(*one, {1.0, 0.0, 0.0}, [](const auto&) { return values_of(dhd().force).y == 1.0; }));
+    EXPECT_EQ(dhd().wrong_calls, 0);
+    one.reset();
+    EXPECT_TRUE(tick_until(two, Vec3(0.0), is_connected)) << "and the other one when it is free";
 }
 
 TEST(ForceDimension, ADeviceInUseAndAnotherOneAreSaid) {
@@ -230,13 +271,47 @@ TEST(OpenHaptics, TwoDevicesShareTheScheduler) {
         };
         EXPECT_TRUE(tick_until(two, {1.0, 0.0, 0.0}, [&](const DeviceSample& sample) {
             one.read(0);
-            one.write(0, {1.0, 0.0, 0.0});
+            // The second one is looked for while the first gives no force.
+            one.write(0, sample.connected ? Vec3(1.0, 0.0, 0.0) : Vec3(0.0));
             return both(sample);
         }));
     }
     EXPECT_EQ(values_of(hd().second_force), Vec3(0.0));
     EXPECT_TRUE(tick_until(one, {1.0, 0.0, 0.0}, [](const auto&) { return values_of(hd().force).x == 1.0; }));
     EXPECT_EQ(one.health().times_lost, 0u);
+    EXPECT_EQ(hd().wrong_calls, 0);
+}
+
+// To look for one stops the scheduler, and with it the force of the other.
+TEST(OpenHaptics, AMissingDeviceIsNotLookedForWhileAnotherGivesAForce) {
+    DriverDevice one(std::make_unique<OpenHapticsDriver>(""));
+    const auto is_given = [](const auto&) { return values_of(hd().force).x == 1.0; };
+    ASSERT_TRUE(tick_until(one, {1.0, 0.0, 0.0}, is_given));
+    DriverDevice missing(std::make_unique<OpenHapticsDriver>("Missing"));
+    const auto says = [&](const char* words) {
+        return missing.health().text.find(words) != std::string::npos;
+    };
+    // A tick that is late takes the force away, too: then the device is looked for.
+    int before = hd().stops;
+    EXPECT_TRUE(tick_until(one, {1.0, 0.0, 0.0}, [&](const auto&) { return says("others give no force"); }));
+    const Nanoseconds end = monotonic_now() + 500 * one_tick;
+    const std::uint64_t cuts = one.health().let_go;
+    before = hd().stops;
+    tick_until(one, {1.0, 0.0, 0.0}, [end](const auto&) { return monotonic_now() > end; });
+    if (one.health().cuts == ForceSlot::Cuts{} && one.health().let_go == cuts) {
+        EXPECT_EQ(hd().stops, before);
+    }
+    EXPECT_TRUE(tick_until(one, Vec3(0.0), [&](const auto&) { return says("'Missing'"); }));
+    EXPECT_TRUE(tick_until(one, {1.0, 0.0, 0.0}, is_given));
+}
+
+TEST(OpenHaptics, OneDeviceIsHadByOneDriver) {
+    hd().wrong_calls = 0;
+    DriverDevice one(std::make_unique<OpenHapticsDriver>(""));
+    ASSERT_TRUE(tick_until(one, {1.0, 0.0, 0.0}, [](const auto&) { return values_of(hd().force).x == 1.0; }));
+    DriverDevice two(std::make_unique<OpenHapticsDriver>(""));
+    EXPECT_TRUE(
+        wait_until([&] { return two.health().text.find("another HapticDevice") != std::string::npos; }));
     EXPECT_EQ(hd().wrong_calls, 0);
 }
 

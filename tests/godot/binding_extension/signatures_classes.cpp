@@ -116,6 +116,7 @@ void list_classes() {
     same<float (CapsuleShape3D::*)() const>(&CapsuleShape3D::get_height);
     same<float (CapsuleShape3D::*)() const>(&CapsuleShape3D::get_radius);
 
+    same<CollisionObject3D::DisableMode (CollisionObject3D::*)() const>(&CollisionObject3D::get_disable_mode);
     same<Object* (CollisionObject3D::*)(uint32_t) const>(&CollisionObject3D::shape_owner_get_owner);
     same<PackedInt32Array (CollisionObject3D::*)()>(&CollisionObject3D::get_shape_owners);
     same<RID (CollisionObject3D::*)() const>(&CollisionObject3D::get_rid);
@@ -151,6 +152,7 @@ void list_classes() {
 
     same<Engine* (*)()>(&Engine::get_singleton);
     same<bool (Engine::*)() const>(&Engine::is_editor_hint);
+    same<double (Engine::*)()>(&Engine::get_time_scale);
     same<int32_t (Engine::*)() const>(&Engine::get_physics_ticks_per_second);
 
     same<PackedByteArray (*)(const String&)>(&FileAccess::get_file_as_bytes);
@@ -245,6 +247,7 @@ void list_classes() {
     same<Node* (Node::*)() const>(&Node::get_parent);
     same<Node* (Node::*)(const NodePath&) const>(&Node::get_node_or_null);
     same<Node* (Node::*)(int32_t, bool) const>(&Node::get_child);
+    same<Node::ProcessMode (Node::*)() const>(&Node::get_process_mode);
     same<NodePath (Node::*)() const>(&Node::get_path);
     same<NodePath (Node::*)(Node*, bool) const>(&Node::get_path_to);
     same<PackedStringArray (Node::*)() const>(&Node::_get_accessibility_configuration_warnings);
@@ -293,6 +296,8 @@ void list_classes() {
 
     same<Error (Object::*)(const StringName&, const Callable&, uint32_t)>(&Object::connect);
     same<String (Object::*)() const>(&Object::get_class);
+    same<TypedArray<Dictionary> (Object::*)(const StringName&) const>(&Object::get_signal_connection_list);
+    same<Variant (Object::*)() const>(&Object::get_script);
     same<Variant (Object::*)(const StringName&) const>(&Object::get);
     same<Variant (Object::*)(const StringName&, const Array&)>(&Object::callv);
     same<bool (Object::*)(const String&) const>(&Object::is_class);
@@ -303,6 +308,7 @@ void list_classes() {
     same<void (Object::*)(const StringName&, const Callable&)>(&Object::disconnect);
     same<void (Object::*)(const StringName&, const Variant&)>(&Object::set);
 
+    same<TypedArray<PhysicsBody3D> (PhysicsBody3D::*)()>(&PhysicsBody3D::get_collision_exceptions);
     same<bool (PhysicsBody3D::*)(PhysicsServer3D::BodyAxis) const>(&PhysicsBody3D::get_axis_lock);
 
     same<bool (PhysicsMaterial::*)() const>(&PhysicsMaterial::is_absorbent);

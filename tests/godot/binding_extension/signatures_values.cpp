@@ -116,10 +116,12 @@ void list_values() {
 
     constructor<Dictionary>();
     same<Array (Dictionary::*)() const>(&Dictionary::keys);
+    same<Dictionary (Dictionary::*)(bool) const>(&Dictionary::duplicate);
     same<Variant& (Dictionary::*)(const Variant&)>(&Dictionary::operator[]);
     same<Variant (Dictionary::*)(const Variant&, const Variant&) const>(&Dictionary::get);
     same<const Variant& (Dictionary::*)(const Variant&) const>(&Dictionary::operator[]);
 
+    constructor<NodePath, const NodePath&>();
     constructor<NodePath, const String&>();
     constructor<NodePath>();
     same<bool (NodePath::*)() const>(&NodePath::is_empty);
@@ -199,9 +201,14 @@ void list_values() {
     same<String (String::*)(const String&) const>(&String::operator+);
     same<String (String::*)(const String&) const>(&String::path_join);
     same<String (String::*)(const char*)>(&String::operator+);
+    same<String (String::*)(int64_t) const>(&String::right);
+    same<String (String::*)(int64_t, int64_t) const>(&String::substr);
     same<bool (String::*)() const>(&String::is_empty);
+    same<bool (String::*)() const>(&String::is_valid_identifier);
     same<bool (String::*)(const String&) const>(&String::begins_with);
+    same<bool (String::*)(const String&) const>(&String::operator!=);
     same<bool (String::*)(const String&) const>(&String::operator==);
+    same<int64_t (String::*)(const String&, int64_t) const>(&String::find);
     same<bool (String::*)(const char*) const>(&String::operator!=);
     same<bool (String::*)(const char*) const>(&String::operator==);
 
@@ -228,6 +235,7 @@ void list_values() {
     constructor<Variant, const Variant&>();
     constructor<Variant, const Vector2&>();
     constructor<Variant, const Vector3&>();
+    constructor<Variant, const char*>();
     constructor<Variant, double>();
     constructor<Variant, int64_t>();
     constructor<Variant>();

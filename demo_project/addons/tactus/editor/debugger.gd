@@ -13,13 +13,8 @@ func _init(dock: Control = null) -> void:
 
 func _setup_session(session_id: int) -> void:
 	var session := get_session(session_id)
-	session.started.connect(_begin.bind(session_id))
+	session.started.connect(_dock.begin)
 	session.stopped.connect(_dock.end)
-
-
-func _begin(session_id: int) -> void:
-	_dock.begin()
-	get_session(session_id).send_message("tactus:watch", [_dock.is_looked_at()])
 
 
 ## The dock has come into view, or gone out of it.
@@ -33,8 +28,11 @@ func _has_capture(prefix: String) -> bool:
 	return prefix == "tactus"
 
 
-func _capture(message: String, data: Array, _session_id: int) -> bool:
+## A scene listens only once its probe is in the tree: it says when, and what was sent before is lost.
+func _capture(message: String, data: Array, session_id: int) -> bool:
 	match message:
+		"tactus:ready":
+			get_session(session_id).send_message("tactus:watch", [_dock.is_looked_at()])
 		"tactus:figures":
 			_dock.show_figures(data[0])
 		"tactus:histograms":

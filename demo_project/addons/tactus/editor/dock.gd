@@ -1,6 +1,7 @@
 @tool
-extends ScrollContainer
-## The Tactus dock: which devices are there, and what the scene that the editor has started does.
+extends HBoxContainer
+## The Tactus panel below the editor's view: which devices are there, and what the scene that the editor has
+## started does.
 @warning_ignore_start("inferred_declaration", "untyped_declaration", "return_value_discarded", "unsafe_cast")
 @warning_ignore_start("unsafe_method_access", "unsafe_property_access", "unsafe_call_argument")
 

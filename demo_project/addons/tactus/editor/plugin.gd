@@ -1,6 +1,7 @@
 @tool
 extends EditorPlugin
-## What the editor shows of the extension's nodes: gizmos with handles, and the Tactus dock.
+## What the editor shows of the extension's nodes: gizmos with handles, the Tactus panel, and Project, Tools,
+## Tactus.
 @warning_ignore_start("inferred_declaration", "untyped_declaration", "return_value_discarded", "unsafe_cast")
 @warning_ignore_start("unsafe_method_access", "unsafe_property_access", "unsafe_call_argument")
 
@@ -15,12 +16,15 @@ const GIZMOS := [
 ]
 const Dock := preload("dock.tscn")
 const Debugger := preload("debugger.gd")
+const Notices := preload("notices.gd")
+const Tools := preload("tools.gd")
 ## What a scene that the editor starts tells the dock by.
 const PROBE := "TactusProbe"
 
 var _gizmos: Array[EditorNode3DGizmoPlugin] = []
 var _dock: Control
 var _debugger: EditorDebuggerPlugin
+var _notices: EditorExportPlugin
 
 
 func _enable_plugin() -> void:
@@ -39,15 +43,20 @@ func _enter_tree() -> void:
 	_dock = Dock.instantiate()
 	_debugger = Debugger.new(_dock)
 	_dock.watched.connect(_debugger.watch)
-	add_control_to_dock(DOCK_SLOT_RIGHT_BL, _dock)
+	add_control_to_bottom_panel(_dock, "Tactus")
+	add_tool_submenu_item("Tactus", Tools.new(get_undo_redo()))
 	add_debugger_plugin(_debugger)
+	_notices = Notices.new()
+	add_export_plugin(_notices)
 	EditorInterface.get_inspector().property_edited.connect(_redraw)
 
 
 func _exit_tree() -> void:
 	EditorInterface.get_inspector().property_edited.disconnect(_redraw)
+	remove_export_plugin(_notices)
 	remove_debugger_plugin(_debugger)
-	remove_control_from_docks(_dock)
+	remove_tool_menu_item("Tactus")
+	remove_control_from_bottom_panel(_dock)
 	_dock.queue_free()
 	for gizmos in _gizmos:
 		remove_node_3d_gizmo_plugin(gizmos)

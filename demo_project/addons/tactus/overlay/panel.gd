@@ -1,5 +1,5 @@
 @tool
-extends VBoxContainer
+extends GridContainer
 ## Plots of the figures that Figures gives, and what devices, links and cameras say. Whoever has the figures
 ## shows them: the overlay of a running scene, or the editor's dock.
 @warning_ignore_start("inferred_declaration", "untyped_declaration", "return_value_discarded", "unsafe_cast")
@@ -16,6 +16,7 @@ func show_figures(figures: Dictionary) -> void:
 		_period_us[world] = figures.worlds[world].period_us
 	for pointer: String in figures.pointers:
 		%Force.add(short_name(pointer, figures.pointers.keys()), time, figures.pointers[pointer].force_n)
+	%Energy.visible = %Energy.visible or figures.devices.values().any(_works)
 	for device: String in figures.devices:
 		%Energy.add(short_name(device, figures.devices.keys()), time, figures.devices[device].energy_mj)
 	%Link.visible = %Link.visible or figures.links.values().any(_hears)
@@ -28,6 +29,10 @@ func show_figures(figures: Dictionary) -> void:
 
 func _hears(link: Dictionary) -> bool:
 	return link.packets_per_s > 0.0
+
+
+func _works(device: Dictionary) -> bool:
+	return absf(device.energy_mj) > 0.0
 
 
 func _corrects(link: Dictionary) -> bool:
@@ -69,7 +74,7 @@ func clear() -> void:
 	_counted.clear()
 	for plot: Control in [%Rate, %Work, %Force, %Energy, %Link, %Moved, %Noticed]:
 		plot.clear()
-	for plot: Control in [%Link, %Moved, %Noticed]:
+	for plot: Control in [%Energy, %Link, %Moved, %Noticed]:
 		plot.hide()
 	%Said.text = ""
 
@@ -88,6 +93,10 @@ static func short_name(path: String, among: Array) -> String:
 	return path
 
 
+static func counted(count: int, one: String, several: String) -> String:
+	return "%d %s" % [count, one if count == 1 else several]
+
+
 func _said(figures: Dictionary) -> String:
 	var lines := PackedStringArray()
 	for kind: String in ["worlds", "devices", "links", "sensors"]:
@@ -99,7 +108,14 @@ func _said(figures: Dictionary) -> String:
 
 func _said_of(kind: String, figures: Dictionary) -> String:
 	if kind == "worlds":
-		return "%d bodies, %d awake, %d deadlines missed" % [figures.bodies, figures.awake, figures.missed]
+		return (
+			"%s, %d awake, %s missed"
+			% [
+				counted(figures.bodies, "body", "bodies"),
+				figures.awake,
+				counted(figures.missed, "deadline", "deadlines")
+			]
+		)
 	if kind == "links" and _hears(figures):
 		return "%s, %.1f %% lost, %d corrections" % [figures.text, figures.lost_percent, figures.corrections]
 	return figures.text

@@ -11,6 +11,12 @@ const COLORS: Array[Color] = [
 	Color(0.35, 0.75, 1.0), Color(1.0, 0.6, 0.2), Color(0.5, 0.85, 0.4), Color(0.95, 0.45, 0.65)
 ]
 const FONT_SIZE := 12
+const LINE := FONT_SIZE + 4
+const MARGIN := 6.0
+## Height of the curves where there is little room, in pixels.
+const LEAST := 26.0
+## What a larger value may exceed the top of the scale by: a loop of 1000.9 Hz is one of 1000.
+const TOLERANCE := 1.05
 
 @export var title := ""
 @export var unit := ""
@@ -47,7 +53,7 @@ static func top_for(largest: float) -> float:
 		return 1.0
 	var power := pow(10.0, floorf(log(largest) / log(10.0)))
 	for factor: float in [1.0, 2.0, 5.0]:
-		if largest <= factor * power * 1.0001:
+		if largest <= factor * power * TOLERANCE:
 			return factor * power
 	return 10.0 * power
 
@@ -64,30 +70,49 @@ func _draw() -> void:
 		now = maxf(now, _times[curve][-1])
 	var top := top_for(largest)
 	var bottom := -top_for(-least) if least < 0.0 else 0.0
-	var font := get_theme_default_font()
-	for i: int in [1, 2, 3]:
-		draw_line(Vector2(0, size.y * i / 4), Vector2(size.x, size.y * i / 4), GRID)
+	var area := _draw_words("%s   %s … %s %s" % [title, String.num(bottom, 3), String.num(top, 3), unit])
+	for i: int in 4:
+		var y := area.position.y + area.size.y * i / 4
+		draw_line(Vector2(0, y), Vector2(size.x, y), GRID)
 	if bottom < 0.0:
-		var zero := size.y * top / (top - bottom)
+		var zero := area.position.y + area.size.y * top / (top - bottom)
 		draw_line(Vector2(0, zero), Vector2(size.x, zero), WORDS)
-	var head := "%s   %s … %s %s" % [title, String.num(bottom, 3), String.num(top, 3), unit]
-	draw_string(font, Vector2(6, FONT_SIZE + 2), head, HORIZONTAL_ALIGNMENT_LEFT, -1, FONT_SIZE, WORDS)
-	var place := Vector2(6, 2 * FONT_SIZE + 5)
 	var index := 0
 	for curve: String in _values:
-		var color := COLORS[index % COLORS.size()]
-		_draw_curve(curve, now, Vector2(bottom, top), color)
-		var legend := "%s %s" % [curve, String.num(_values[curve][-1], 2)]
-		draw_string(font, place, legend, HORIZONTAL_ALIGNMENT_LEFT, -1, FONT_SIZE, color)
-		place.x += font.get_string_size(legend, HORIZONTAL_ALIGNMENT_LEFT, -1, FONT_SIZE).x + 14
+		_draw_curve(curve, now, Vector2(bottom, top), area, COLORS[index % COLORS.size()])
 		index += 1
 
 
-func _draw_curve(curve: String, now: float, scale_ends: Vector2, color: Color) -> void:
+## The title and, in as many lines as they need, the names of the curves with their last values. Returns what
+## is left for the curves.
+func _draw_words(head: String) -> Rect2:
+	var font := get_theme_default_font()
+	var width := size.x - 2 * MARGIN
+	draw_string(font, Vector2(MARGIN, LINE - 2), head, HORIZONTAL_ALIGNMENT_LEFT, width, FONT_SIZE, WORDS)
+	var place := Vector2(MARGIN, LINE - 2)
+	var index := 0
+	for curve: String in _values:
+		var legend := "%s %s" % [curve, String.num(_values[curve][-1], 2)]
+		var wide := font.get_string_size(legend, HORIZONTAL_ALIGNMENT_LEFT, -1, FONT_SIZE).x
+		if index == 0 or place.x + wide > width:
+			place = Vector2(MARGIN, place.y + LINE)
+		draw_string(
+			font, place, legend, HORIZONTAL_ALIGNMENT_LEFT, width, FONT_SIZE, COLORS[index % COLORS.size()]
+		)
+		place.x += wide + 2 * MARGIN
+		index += 1
+	var used := place.y + MARGIN
+	var needed := used + LEAST
+	if not is_equal_approx(custom_minimum_size.y, needed):
+		set_deferred("custom_minimum_size", Vector2(custom_minimum_size.x, needed))
+	return Rect2(0, used, size.x, maxf(0.0, size.y - used))
+
+
+func _draw_curve(curve: String, now: float, scale_ends: Vector2, area: Rect2, color: Color) -> void:
 	var points := PackedVector2Array()
 	for i: int in _values[curve].size():
 		var x: float = size.x * (1.0 - (now - _times[curve][i]) / seconds)
 		var up := inverse_lerp(scale_ends.x, scale_ends.y, _values[curve][i])
-		points.append(Vector2(x, size.y * (1.0 - clampf(up, 0.0, 1.0))))
+		points.append(Vector2(x, area.position.y + area.size.y * (1.0 - clampf(up, 0.0, 1.0))))
 	if points.size() > 1:
 		draw_polyline(points, color, 1.5, true)

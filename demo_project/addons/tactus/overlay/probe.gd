@@ -21,6 +21,7 @@ func _ready() -> void:
 		return
 	Monitors.add(get_tree())
 	EngineDebugger.register_message_capture("tactus", _take)
+	EngineDebugger.send_message("tactus:ready", [])
 
 
 func _exit_tree() -> void:

@@ -98,6 +98,15 @@ func read(words: PackedStringArray) -> String:
 	return ""
 
 
+## As value_of() reads it.
+static func text_of(value: Variant) -> String:
+	if value is bool:
+		return str(int(value))
+	if value is PackedFloat64Array or value is PackedStringArray:
+		return ",".join(Array(value).map(str))
+	return str(value)
+
+
 ## Null where the text is not allowed.
 static func value_of(one: Dictionary, given: String) -> Variant:
 	match one.type:

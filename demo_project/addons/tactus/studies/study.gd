@@ -51,22 +51,29 @@ var _told_at := 0.0
 
 func _ready() -> void:
 	if get_tree().current_scene == self:
-		var words := OptionWords.new()
-		words.declared = OptionWords.of_properties(self)
-		var wrong := words.read(OS.get_cmdline_user_args())
-		if not wrong.is_empty():
-			_end_with(wrong)
-			get_tree().quit.call_deferred(2)
-			return
-		for key: String in words.values:
-			set(key, words.values[key])
-		folder = CallerPath.whole(folder)
-		wrong = CallerPath.problem(folder)
+		var wrong := take_words(OS.get_cmdline_user_args())
 		if not wrong.is_empty():
 			_end_with(wrong)
 			get_tree().quit.call_deferred(2)
 			return
 	start()
+
+
+## Takes --NAME=VALUE for the exported properties. Empty, or what is wrong: then nothing is taken.
+func take_words(arguments: PackedStringArray) -> String:
+	var words := OptionWords.new()
+	words.declared = OptionWords.of_properties(self)
+	var wrong := words.read(arguments)
+	if not wrong.is_empty():
+		return wrong
+	var place := CallerPath.whole(words.values.get("folder", folder))
+	wrong = CallerPath.problem(place)
+	if not wrong.is_empty():
+		return wrong
+	for key: String in words.values:
+		set(key, words.values[key])
+	folder = place
+	return StudyFile.code_problem(participant)
 
 
 ## Opens the participant's file and begins with the first trial that has no answer.

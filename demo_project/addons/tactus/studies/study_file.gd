@@ -32,8 +32,9 @@ var _written := ""
 func begin(
 	place: String, study: String, participant: String, settings: Dictionary, more: Dictionary, goes_on: bool
 ) -> String:
-	if RegEx.create_from_string(CODE).search(participant) == null:
-		return "'%s' is no participant's code: 1 to 32 letters, digits, - and _, and no name" % participant
+	var wrong := code_problem(participant)
+	if not wrong.is_empty():
+		return wrong
 	var all := place.path_join(study).path_join(participant)
 	var code := DirAccess.make_dir_recursive_absolute(ProjectSettings.globalize_path(all))
 	if code != OK and code != ERR_ALREADY_EXISTS:
@@ -56,6 +57,13 @@ func begin(
 	about = {"settings": settings, "finished": false}
 	about.merge(more)
 	return _write_whole(".json", JSON.stringify(about, "  ", true, true) + "\n")
+
+
+## Why that is no participant's code; empty where it is one.
+static func code_problem(participant: String) -> String:
+	if RegEx.create_from_string(CODE).search(participant) != null:
+		return ""
+	return "'%s' is no participant's code: 1 to 32 letters, digits, - and _, and no name" % participant
 
 
 ## One row; the first one says which columns there are. Empty, or why it was not kept.

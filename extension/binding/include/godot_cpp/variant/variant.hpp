@@ -106,7 +106,7 @@ public:
     Variant(double value);
     Variant(float value) : Variant(static_cast<double>(value)) {}
     Variant(const ObjectID& value) : Variant(static_cast<int64_t>(value)) {}
-    Variant(const char* text) : Variant(String(text)) {}
+    Variant(const char* text);
     Variant(const char32_t* text) : Variant(String(text)) {}
     Variant(const Object* object);
     Variant(const String& value);

@@ -1,0 +1,123 @@
+// What the parts of the bench of credibility share.
+#pragma once
+
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "physics/scenes.hpp"
+#include "shared/bodies.hpp"
+
+namespace tactus::bench {
+
+constexpr double gravity = 9.81;  // (unit: meters per square second)
+
+// A body in a world of physics alone.
+inline BodyId enter(PhysicsWorld& world, const BodyDescription& description) {
+    PreparedBody body = prepare(description);
+    const BodyId id = world.add(body);
+    if (!id.valid()) {
+        std::fprintf(stderr, "%s\n", body.error().c_str());
+        std::exit(1);
+    }
+    return id;
+}
+
+// Steps of 1 ms until `done(seconds)` or the end (unit: seconds). Returns when that was.
+template <class Done>
+double run_until(PhysicsWorld& world, double end, Done&& done) {
+    int i = 0;
+    while (i * tick < end && !done(i * tick)) {
+        world.step(tick);
+        ++i;
+    }
+    return i * tick;
+}
+
+inline double deviation(double ours, double right) {
+    return std::abs(ours / right - 1.0) * 100.0;
+}
+
+// CASE.ours, CASE.right and the deviation in percent, CASE.
+inline void add_case(Results& results, const std::string& name, double ours, double right) {
+    results.add(name + ".ours", ours);
+    results.add(name + ".right", right);
+    results.add(name, deviation(ours, right));
+}
+
+// A session with one hand and its fingertip, in virtual time.
+class Stage {
+public:
+    explicit Stage(double radius, const Vec3& start, const Vec3& gravity_there = {0.0, -gravity, 0.0})
+        : session_(settings(gravity_there)) {
+        hand.position = start;
+        ProxyDescription finger;
+        Workspace workspace;
+        workspace.force_limit = 1e6;
+        finger.device = session_.add_device(hand, workspace).handle;
+        finger.settings.radius = radius;
+        session_.add_proxy(finger);
+    }
+
+    // `friction`: of the fingertip on it.
+    SessionHandle add(const BodyDescription& description, double stiffness, double friction) {
+        BodyAddition addition;
+        addition.description = description;
+        addition.touch_material.stiffness = stiffness;
+        addition.touch_material.static_friction = addition.touch_material.dynamic_friction = friction;
+        const AddResult result = session_.add_body(addition);
+        if (!result.error.empty()) {
+            std::fprintf(stderr, "%s\n", result.error.c_str());
+            std::exit(1);
+        }
+        return result.handle;
+    }
+
+    // The hand goes there in the next tick. The work of the force that it holds meanwhile is counted.
+    void go(const Vec3& to) {
+        hand.velocity = (to - hand.position) / tick;
+        work_ += glm::dot(hand.force, to - hand.position);
+        hand.position = to;
+        session_.tick(now_ += 1'000'000);
+    }
+    void wait(double seconds) {
+        for (int i = 0; i < seconds / tick; ++i)
+            go(hand.position);
+    }
+    // On the hand since the beginning (unit: joules).
+    double work() const { return work_; }
+
+    BodyState state(SessionHandle handle) {
+        session_.refresh();
+        const SessionSnapshot& snapshot = session_.snapshot();
+        const BodyState* const found = state_of(snapshot.bodies, snapshot.body_count, handle);
+        return found != nullptr ? *found : BodyState{};
+    }
+    Session& session() { return session_; }
+
+    Hand hand;
+
+private:
+    static SessionSettings settings(const Vec3& gravity_there) {
+        SessionSettings result;
+        result.max_bodies = 64;
+        result.max_parts = 64;
+        result.physics.gravity = gravity_there;
+        return result;
+    }
+
+    Session session_;
+    Nanoseconds now_ = 0;
+    double work_ = 0.0;
+};
+
+void measure_friction(Results& results);
+void measure_spin(Results& results);
+void measure_hand(Results& results);
+void measure_slowed(Results& results);
+void measure_joints(Results& results);
+void measure_stacks(Results& results);
+
+}  // namespace tactus::bench

@@ -1,0 +1,83 @@
+// Chance on the way is no queue, and a queue behind chance is found.
+#include "network/queue_watch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "endpoint_rig.hpp"
+#include "network/pace.hpp"
+#include "shared/wire_samples.hpp"
+
+namespace tactus {
+namespace {
+
+constexpr Nanoseconds ms = 1'000'000;
+constexpr double threshold = 20e6;
+
+// The share of requests, one every 100 ms for `seconds`, after which a queue is told.
+template <typename Draw>
+double share_told(double seconds, Draw&& way) {
+    QueueWatch watch;
+    const int count = static_cast<int>(10.0 * seconds);
+    int told = 0;
+    for (int i = 0; i < count; ++i) {
+        const Nanoseconds at = i * 100 * ms;
+        watch.add(at, at + static_cast<Nanoseconds>(way(i)), at);
+        told += watch.figures().is_longer_than(threshold, false) ? 1 : 0;
+    }
+    return static_cast<double>(told) / count;
+}
+
+TEST(QueueWatch, EvenChanceIsNoQueue) {
+    for (const double jitter : {5e6, 10e6, 20e6, 50e6, 200e6}) {
+        std::mt19937_64 random(3);
+        std::uniform_real_distribution<double> draw(-jitter, jitter);
+        EXPECT_LT(share_told(3000.0, [&](int) { return 300e6 + draw(random); }), 1e-3) << jitter;
+    }
+}
+
+TEST(QueueWatch, NormalChanceIsNoQueue) {
+    for (const double jitter : {5e6, 10e6, 20e6, 50e6}) {
+        std::mt19937_64 random(4);
+        std::normal_distribution<double> draw(0.0, jitter);
+        EXPECT_LT(share_told(3000.0, [&](int) { return 500e6 + draw(random); }), 1e-3) << jitter;
+    }
+}
+
+TEST(QueueWatch, AQueueBehindChanceIsFound) {
+    std::mt19937_64 random(5);
+    std::uniform_real_distribution<double> draw(-10e6, 10e6);
+    // After 3 s it fills by 50 ms a second, up to 150 ms.
+    const double told =
+        share_told(8.0, [&](int i) { return 100e6 + draw(random) + std::clamp((i - 30) * 5e6, 0.0, 150e6); });
+    EXPECT_GT(told, 0.45);
+}
+
+// What is sent over a way with jitter, without a limit and without losses, is all that there is to send.
+TEST(Pace, JitterThrottlesNothingAndLosesNothing) {
+    for (const JitterShape shape : {JitterShape::uniform, JitterShape::normal})
+        for (const Nanoseconds jitter : {10 * ms, 20 * ms, 50 * ms}) {
+            LinkConditions conditions;
+            conditions.delay = 60 * ms;
+            conditions.jitter = jitter;
+            conditions.shape = shape;
+            EndpointRig rig(conditions, 6);
+            Pace pace(PaceSettings{});
+            int ticks = 0, throttled = 0;
+            double lost = 0.0;
+            rig.run(60'000 * ms, [&] {
+                rig.far().send(samples::force(1.0));
+                pace.adapt(rig.far(), rig.now());
+                ++ticks;
+                throttled += pace.stride() > 1 ? 1 : 0;
+                lost += rig.far().statistics().lost_there;
+            });
+            EXPECT_LT(throttled, 0.01 * ticks) << jitter;
+            EXPECT_LT(lost / ticks, 0.003) << jitter;
+        }
+}
+
+}  // namespace
+}  // namespace tactus

@@ -1,0 +1,81 @@
+// While the far side describes its bodies nothing of the model falls through what is not described yet.
+#include <algorithm>
+#include <string>
+
+#include "model_rig.hpp"
+
+namespace tactus::connecting_test {
+namespace {
+
+using namespace session_test;
+
+BodyAddition brick(const Vec3& position, double half = 0.02) {
+    return body(BoxShape{Vec3(half)}, position, Motion::Dynamic, 0.3);
+}
+
+// The most that any box of the model is below the one that it shows (unit: meters).
+double fall_while_connecting(ModelRig& rig, const std::vector<SessionHandle>& bricks, double seconds) {
+    double most = 0.0;
+    for (int i = 0; i < static_cast<int>(seconds * 1e3); ++i) {
+        rig.run(ms);
+        const SessionSnapshot& there = rig.far->session.snapshot();
+        for (std::size_t k = 0; k < bricks.size(); ++k) {
+            const ModelObject* const object = rig.near->find("Box" + std::to_string(k));
+            const BodyState* const truth = state_of(there.bodies, there.body_count, bricks[k]);
+            if (object && object->body != no_handle && truth) {
+                const double y = rig.near->pose(object->name).position.y;
+                most = y > -90.0 ? std::max(most, truth->pose.position.y - y) : most;
+            }
+        }
+    }
+    return most;
+}
+
+std::vector<SessionHandle> pile(ModelRig& rig, int count) {
+    std::vector<SessionHandle> bricks;
+    for (int k = 0; k < count; ++k) {
+        bricks.push_back(rig.far->add("Box" + std::to_string(k), brick({0.06 * k - 0.6, 0.02, 0.0})));
+    }
+    return bricks;
+}
+
+TEST(Connecting, NothingFallsThroughWhatIsDescribedLast) {
+    for (const double loss : {0.0, 0.05}) {
+        LinkConditions conditions;
+        conditions.delay = 25 * ms;
+        conditions.loss = loss;
+        conditions.rate = 256e3;
+        ModelRig rig(conditions);
+        const std::vector<SessionHandle> bricks = pile(rig, 20);
+        rig.far->add("Table", body(BoxShape{{1.0, 0.1, 1.0}}, {0.0, -0.1, 0.0}, Motion::Static));
+        EXPECT_LE(fall_while_connecting(rig, bricks, 6.0), 1e-3) << loss;
+        EXPECT_EQ(rig.near->builder.objects().size(), 21u);
+    }
+}
+
+// Once all is known it falls as at the far side.
+TEST(Connecting, WhatIsKnownFallsAgain) {
+    ModelRig rig;
+    const std::vector<SessionHandle> bricks = pile(rig, 3);
+    rig.far->add("Table", body(BoxShape{{1.0, 0.1, 1.0}}, {0.0, -0.1, 0.0}, Motion::Static));
+    rig.run(1000 * ms);
+    rig.far->session.teleport_body(bricks[1], {{0.0, 0.5, 0.5}, {1.0, 0.0, 0.0, 0.0}});
+    rig.run(1000 * ms);
+    EXPECT_NEAR(rig.near->pose("Box1").position.y, 0.02, 1e-3);
+}
+
+// A body and what it rests on come while the two are connected, and the support is described last.
+TEST(Connecting, WhatComesLaterRestsOnWhatComesWithIt) {
+    LinkConditions conditions;
+    conditions.delay = 25 * ms;
+    conditions.rate = 64e3;
+    ModelRig rig(conditions);
+    rig.far->add("Ground", body(BoxShape{{1.0, 0.1, 1.0}}, {0.0, -5.0, 0.0}, Motion::Static));
+    rig.run(1000 * ms);
+    const std::vector<SessionHandle> bricks = pile(rig, 12);
+    rig.far->add("Table", body(BoxShape{{1.0, 0.1, 1.0}}, {0.0, -0.1, 0.0}, Motion::Static));
+    EXPECT_LE(fall_while_connecting(rig, bricks, 4.0), 1e-3);
+}
+
+}  // namespace
+}  // namespace tactus::connecting_test
