@@ -24,11 +24,11 @@ std::string MappedFile::create(const std::string& prefix, std::size_t bytes) {
     path_ = std::string(temporary_folder()) + "/" + prefix + "XXXXXX";
     const int file = mkostemp(path_.data(), O_CLOEXEC);
     if (file < 0) {
-        return path_ + ": " + system_message(errno);
+        return path_ + ": " + last_system_message();
     }
     is_own_ = true;
     if (ftruncate(file, static_cast<off_t>(bytes)) != 0) {
-        const std::string why = path_ + ": " + system_message(errno);
+        const std::string why = path_ + ": " + last_system_message();
         close(file);
         return why;
     }
@@ -38,7 +38,7 @@ std::string MappedFile::create(const std::string& prefix, std::size_t bytes) {
 std::string MappedFile::open(const std::string& path) {
     path_ = path;
     const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    return file < 0 ? system_message(errno) : map(file, false);
+    return file < 0 ? last_system_message() : map(file, false);
 }
 
 std::string MappedFile::map(int file, bool writes) {

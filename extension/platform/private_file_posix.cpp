@@ -35,7 +35,7 @@ PrivateFile read_private_file(const std::string& path, std::size_t max_bytes) {
     const File file(path);
     struct stat status{};
     if (file.number < 0 || fstat(file.number, &status) != 0) {
-        return refused(FileTrouble::unreadable, system_message(errno));
+        return refused(FileTrouble::unreadable, last_system_message());
     }
     if (!S_ISREG(status.st_mode)) {
         return refused(FileTrouble::not_ordinary);
@@ -46,7 +46,7 @@ PrivateFile read_private_file(const std::string& path, std::size_t max_bytes) {
     std::string bytes(max_bytes + 1, '\0');
     const ssize_t size = read(file.number, bytes.data(), bytes.size());
     if (size < 0) {
-        return refused(FileTrouble::unreadable, system_message(errno));
+        return refused(FileTrouble::unreadable, last_system_message());
     }
     if (static_cast<std::size_t>(size) > max_bytes) {
         return refused(FileTrouble::too_long);

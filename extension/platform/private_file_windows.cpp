@@ -17,10 +17,6 @@ PrivateFile refused(FileTrouble trouble, std::string system_text = {}, std::stri
     return {trouble, {}, std::move(system_text), std::move(way_out)};
 }
 
-std::string last_error() {
-    return system_message(static_cast<int>(GetLastError()));
-}
-
 // Closes itself.
 struct File {
     explicit File(const std::string& path)
@@ -108,7 +104,7 @@ bool is_private(HANDLE file) {
 PrivateFile read_private_file(const std::string& path, std::size_t max_bytes) {
     const File file(path);
     if (file.handle == INVALID_HANDLE_VALUE) {
-        return refused(FileTrouble::unreadable, last_error());
+        return refused(FileTrouble::unreadable, last_system_message());
     }
     if (!is_ordinary(file.handle)) {
         return refused(FileTrouble::not_ordinary);
@@ -120,7 +116,7 @@ PrivateFile read_private_file(const std::string& path, std::size_t max_bytes) {
     std::string bytes(max_bytes + 1, '\0');
     DWORD size = 0;
     if (ReadFile(file.handle, bytes.data(), static_cast<DWORD>(bytes.size()), &size, nullptr) == 0) {
-        return refused(FileTrouble::unreadable, last_error());
+        return refused(FileTrouble::unreadable, last_system_message());
     }
     if (size > max_bytes) {
         return refused(FileTrouble::too_long);

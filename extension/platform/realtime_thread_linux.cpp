@@ -105,7 +105,7 @@ void request_memory_lock(bool wanted, RealtimeReport& report) {
     }
     const std::string refused = locked_memory.hold([](bool) {
         const bool locked = mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0;
-        return locked ? std::string() : system_message(errno);
+        return locked ? std::string() : last_system_message();
     });
     if (!refused.empty()) {
         report.text += "Memory: not locked (" + refused + "). ";

@@ -11,10 +11,6 @@ namespace tactus {
 
 namespace {
 
-std::string last_error() {
-    return system_message(static_cast<int>(GetLastError()));
-}
-
 // The multimedia scheduler runs its threads ahead of all ordinary ones, for four fifths of the time at most.
 // Where its service is off, the highest ordinary priority is the next best.
 void request_scheduling(int priority, RealtimeReport& report) {
@@ -26,7 +22,7 @@ void request_scheduling(int priority, RealtimeReport& report) {
     DWORD task = 0;
     const HANDLE granted = AvSetMmThreadCharacteristicsW(L"Pro Audio", &task);
     if (granted == nullptr) {
-        const std::string why = last_error();
+        const std::string why = last_system_message();
         report.short_turns = SetThreadPriority(GetCurrentThread(), THREAD_PRIORITY_TIME_CRITICAL) != 0;
         report.text += std::string("Scheduling: ordinary") + (report.short_turns ? ", time critical" : "") +
                        "; MMCSS was refused (" + why +
@@ -55,7 +51,7 @@ std::string keep_working_set(bool is_first) {
         GetProcessMemoryInfo(process, &use, sizeof use) == 0 ||
         SetProcessWorkingSetSizeEx(process, use.WorkingSetSize + room, use.WorkingSetSize + 2 * room,
                                    QUOTA_LIMITS_HARDWS_MIN_ENABLE | QUOTA_LIMITS_HARDWS_MAX_DISABLE) == 0) {
-        return last_error();
+        return last_system_message();
     }
     if (is_first) {
         usual_least = least;
@@ -75,7 +71,7 @@ std::string lock_stack() {
     const char here = 0;
     const bool locked = VirtualQuery(&here, &pages, sizeof pages) != 0 &&
                         VirtualLock(pages.BaseAddress, pages.RegionSize) != 0;
-    return locked ? std::string() : last_error();
+    return locked ? std::string() : last_system_message();
 }
 
 void request_memory_lock(bool wanted, RealtimeReport& report) {

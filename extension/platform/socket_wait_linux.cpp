@@ -16,7 +16,7 @@ struct SocketWait::System {
 
 SocketWait::SocketWait() : system_(std::make_unique<System>()) {
     if (system_->event < 0) {
-        error_ = system_message(errno);
+        error_ = last_system_message();
     }
 }
 

@@ -40,14 +40,14 @@ std::string StreamSocket::connect_here(std::uint16_t port) {
     close();
     const int made = socket(AF_INET, SOCK_STREAM, 0);
     if (made < 0) {
-        return system_message(errno);
+        return last_system_message();
     }
     sockaddr_in address{};
     address.sin_family = AF_INET;
     address.sin_port = htons(port);
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     if (connect(made, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
-        const std::string why = system_message(errno);
+        const std::string why = last_system_message();
         ::close(made);
         return why;
     }
@@ -69,11 +69,11 @@ std::string StreamSocket::connect_to(const std::string& path) {
     std::memcpy(address.sun_path, path.data(), path.size());
     const int made = socket(AF_UNIX, SOCK_STREAM, 0);
     if (made < 0) {
-        return system_message(errno);
+        return last_system_message();
     }
     make_ours(made);
     if (connect(made, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
-        const std::string why = system_message(errno);
+        const std::string why = last_system_message();
         ::close(made);
         return why;
     }

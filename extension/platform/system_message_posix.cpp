@@ -1,3 +1,4 @@
+#include <cerrno>
 #include <cstring>
 
 #include "platform/system_message.hpp"
@@ -6,6 +7,10 @@ namespace tactus {
 
 std::string system_message(int code) {
     return std::strerror(code);
+}
+
+std::string last_system_message() {
+    return system_message(errno);
 }
 
 }  // namespace tactus

@@ -16,4 +16,8 @@ std::string system_message(int code) {
     return message.empty() ? "error " + std::to_string(code) : windows::to_utf8(message);
 }
 
+std::string last_system_message() {
+    return system_message(static_cast<int>(GetLastError()));
+}
+
 }  // namespace tactus

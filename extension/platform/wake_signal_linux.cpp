@@ -18,7 +18,7 @@ struct WakeSignal::System {
 
 WakeSignal::WakeSignal() : system_(std::make_unique<System>()) {
     if (system_->event < 0) {
-        error_ = system_message(errno);
+        error_ = last_system_message();
     }
 }
 

@@ -17,7 +17,7 @@ struct WakeSignal::System {
 
 WakeSignal::WakeSignal() : system_(std::make_unique<System>()) {
     if (pipe(system_->ends) != 0) {
-        error_ = system_message(errno);
+        error_ = last_system_message();
         return;
     }
     for (const int end : system_->ends) {
