@@ -126,7 +126,7 @@ func test_nonsense_is_counted_and_moves_nothing() -> void:
 	stranger.put_packet("not a packet of ours at all, but long enough to be one".to_utf8_buffer())
 	await _counts(here, "refused_foreign")
 	var other_version := hello.duplicate()
-	other_version[2] += 1
+	other_version[2] += 2  # past the newest
 	stranger.put_packet(other_version)
 	await _reaches(here, MMTLink.STATE_REFUSED, "another version")
 	check_equal(here.get_statistics().objects, 0, "objects")

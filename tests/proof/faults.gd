@@ -204,7 +204,9 @@ func test_open_and_close() -> void:
 		resident.append(_resident())
 	# What is closed is destroyed by threads of their own, which may lie behind.
 	var ended := Time.get_ticks_msec()
-	await until(func() -> bool: return _count("/proc/self/task") <= before[1], LONG)
+	var all_ended := func() -> bool:
+		return _count("/proc/self/task") <= before[1] and _count("/proc/self/fd") <= before[0]
+	await until(all_ended, LONG)
 	ended = Time.get_ticks_msec() - ended
 	var after := [_count("/proc/self/fd"), _count("/proc/self/task")]
 	check(after[0] <= before[0], "files: %d, then %d" % [before[0], after[0]])
