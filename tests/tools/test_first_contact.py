@@ -93,7 +93,7 @@ def test_who_cites_names_this_version_and_its_license():
 
 def test_states_of_a_link_are_those_that_the_code_reports():
     page = (CLONE / "docs/tutorials/two_computers.md").read_text()
-    sources = [CLONE / "extension/world/world_link.cpp", CLONE / "extension/network/udp_sockets.cpp"]
+    sources = [CLONE / "extension" / name for name in ("world/world_link.cpp", "network/udp_sockets.cpp", "network/terms.cpp")]
     code = re.sub(r'"\s+"', "", "".join(source.read_text() for source in sources))
     quoted = [text for text in re.findall(r'"([^"]+)"', without_code(page)) if "…" in text or " " in text]
     assert len(quoted) > 10

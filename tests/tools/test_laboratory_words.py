@@ -39,7 +39,7 @@ def test_a_disk_that_is_full_ends_the_run(tmp_path, monkeypatch):
     def limit() -> None:
         resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, 100_000))
 
-    teleop_runs._program()
+    teleop_runs.program()
     limited = functools.partial(subprocess.Popen, preexec_fn=limit, restore_signals=False)
     monkeypatch.setattr(subprocess, "Popen", limited)
     with pytest.raises(RuntimeError, match="could not be written: is the disk full"):

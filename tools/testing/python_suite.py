@@ -20,6 +20,11 @@ def has(wanted: str) -> bool:
     return any(matching(_named_in(path), wanted) for path in (cache.clone() / "tests/tools").glob("test_*.py"))
 
 
+def programs_with(wanted: str) -> list[str]:
+    """What scons has to build beside the extension for the tests whose name contains the words."""
+    return ["fuzzers"] if matching(_named_in(cache.clone() / "tests/tools/test_proof.py"), wanted) else []
+
+
 def _named_in(path: Path) -> list[str]:
     return [f"tools.{path.stem}.{name}" for name in re.findall(r"^def (test_\w+)", path.read_text(), re.M)]
 

@@ -62,8 +62,8 @@ def _elsewhere(platform: Platform, sanitizers: str, wanted: str) -> list[Result]
 
 def _here(wanted: str, only_changed: bool) -> list[Result]:
     in_project = godot_suite.has(wanted) or python_suite.has(wanted)
-    programs = cpp_suite.programs_with(wanted)
-    targets = [*(["extension", "sensing"] if in_project else []), *programs]
+    programs = [*cpp_suite.programs_with(wanted), *python_suite.programs_with(wanted)]
+    targets = [*(["extension", "sensing", "probe"] if in_project else []), *programs]
     if targets:
         _build(targets)
     if in_project:
