@@ -92,17 +92,6 @@ func test_the_rigs_work_as_they_are() -> void:
 		await frames(1)
 
 
-func test_the_machine_is_checked() -> void:
-	var scene: Control = load("res://addons/tactus/check/check_machine.tscn").instantiate()
-	scene.seconds = 0.5
-	var reports: Array[String] = []
-	scene.finished.connect(func(report: String) -> void: reports.append(report))
-	add_child(scene)
-	check(await until(func() -> bool: return not reports.is_empty(), 20.0), "there is no report")
-	for words: String in ["Godot 4", "ticks a second of 1000 wanted", "Real-time rights", "Novint Falcon: "]:
-		check(reports[0].contains(words), "'%s' is not in: %s" % [words, reports[0]])
-
-
 ## The force is seen without a key and without a script.
 func test_the_rig_shows_its_force() -> void:
 	var scene: Node3D = load("res://addons/tactus/HapticRig.tscn").instantiate()
