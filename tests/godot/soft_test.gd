@@ -179,3 +179,21 @@ func test_another_stiffness_is_another_feeling() -> void:
 		forces.append(proxy.get_force().y)
 		world.free()
 	check(forces[1] > 1.5 * forces[0], "forces %s" % [forces])
+
+
+## The path leads over all three in each of its rounds, and the box stays on the sponge.
+func test_the_scene_of_things_that_give_plays_round_after_round() -> void:
+	var scene := add_scene("res://gallery/soft/soft.tscn")
+	var world: HapticWorld = scene.get_node("HapticWorld")
+	var proxy: ProxyPointer = world.get_node("ProxyPointer")
+	var touched := {}
+	proxy.contact_started.connect(func(body: Node3D) -> void: touched[body.name] = true)
+	for number in 2:
+		touched.clear()
+		for _i in 14 * 60:
+			world.advance(1.0 / 60.0)
+		for name: StringName in [&"Sponge", &"Ball", &"Cloth"]:
+			check(touched.has(name), "round %d: touched were %s" % [number, touched.keys()])
+	var box: RigidBody3D = world.get_node("Box")
+	check(box.global_position.y > 0.08, "the box has left the sponge: %s" % box.global_position)
+	scene.free()
