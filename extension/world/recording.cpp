@@ -40,12 +40,10 @@ std::unique_ptr<Recording> Recording::open(const RecordingFiles& files, const Sa
 }
 
 Recording::Recording(const RecordingFiles& files, const Say& say)
-    : files_(files),
-      say_(say),
-      ring_(std::make_shared<Ring>(ring_capacity)),
-      csv_(create(files.csv)),
-      trace_(create(files.trace)),
-      text_(record_csv_header()) {}
+    : files_(files), say_(say), ring_(std::make_shared<Ring>(ring_capacity)), text_(record_csv_header()) {
+    csv_ = create(files.csv);
+    trace_ = create(files.trace);
+}
 
 OpenFile Recording::create(const std::string& path) {
     if (path.empty()) {
