@@ -228,6 +228,7 @@ void report_ticks_of_hands(Report& report) {
     report_ticks(report, "emulated_robot", tick_over_path(robot, seconds_of_ticks, [](double) {}));
 }
 
+#ifdef __linux__
 // Keys of one device: quiet, beside busy processors, and at every rate that the world offers.
 void report_displayed(Report& report, const std::string& name, const WatchedDevice& watched, int phases,
                       double seconds) {
@@ -311,7 +312,6 @@ void report_lies(Report& report, const std::string& name, const LyingDevice& dev
     std::fflush(stdout);
 }
 
-#ifdef __linux__
 void report_displayed_of_drivers(Report& report, int phases, double seconds, const std::string& only) {
     const auto play = [&](const std::string& name, const LyingDevice& device) {
         if (only.empty() || only == name) {
@@ -346,6 +346,10 @@ void report_ticks_of_drivers(Report& report) {
     const HaplyService service;
     report_ticks(report, "inverse3", std::make_unique<Inverse3Driver>("", service.port()));
 }
+#else
+// What stands in for the makers' libraries and service is Linux's alone.
+void report_displayed_of_drivers(Report&, int, double, const std::string&) {}
+void report_ticks_of_drivers(Report&) {}
 #endif
 
 // In a user's hand: no force is asked for.
@@ -457,9 +461,7 @@ int main(int count, char** arguments) {
         return report_plugged(report, plugged, firmware, id);
     }
     if (seconds > 0.0) {
-#ifdef __linux__
         report_displayed_of_drivers(report, phases, seconds, driver);
-#endif
 #ifdef TACTUS_PLAYED_USB
         if (driver.empty() || driver == "falcon") {
             report_displayed_of_falcon(report, phases, seconds);
@@ -476,9 +478,7 @@ int main(int count, char** arguments) {
     report_scripts(report, 50);
     if (rounds > 0) {
         report_ticks_of_hands(report);
-#ifdef __linux__
         report_ticks_of_drivers(report);
-#endif
     }
 #ifdef TACTUS_PLAYED_USB
     if (rounds > 0) {
