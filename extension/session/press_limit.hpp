@@ -80,8 +80,12 @@ public:
         known_ = state_ == State::here ? depth : depth_;
         depth_ = std::min(depth, depth_);
     }
-    // How deep a hand is that is here and not held back (unit: meters); 0: it touches nothing.
-    void note(double depth) { known_ = depth_ = depth; }
+    // How deep a hand is that is here and not held back (unit: meters); 0: it touches nothing. A guess ends
+    // so.
+    void note(double depth) {
+        known_ = depth_ = depth;
+        guessed_for_ = 0.0;
+    }
 
 private:
     enum class State : std::uint8_t {
