@@ -303,6 +303,8 @@ void Endpoint::end_tick() {
         next_request_ = std::min(next_request_, now_ + often_every);
     }
     statistics_.clock = clock_.figures_at(local_now_);
+    queue_there_.wait(now_, statistics_.clock.latest_delay);
+    statistics_.queue_there = queue_there_.figures();
     measure_rates(now_);
 }
 

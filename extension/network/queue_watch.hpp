@@ -4,6 +4,9 @@
 // A queue keeps back all that comes; chance does not. So the least of the last three counts, and what chance
 // makes of one of them is known from how the way bends (its second difference): a queue that fills or empties
 // steadily makes none.
+//
+// A queue that is full loses what comes next, the requests too. So one that was found last is taken to be
+// there still, as long as no request is answered.
 #pragma once
 
 #include <algorithm>
@@ -62,6 +65,14 @@ public:
         ++count_;
     }
 
+    // Once a tick: no answer has come since. `round_trip`: what one takes to come (unit: nanoseconds).
+    void wait(Nanoseconds now, Nanoseconds round_trip) {
+        if (figures_.known && now - figures_.as_of > round_trip + silence) {
+            figures_.as_of = now;
+            figures_.trend = 0.0;
+        }
+    }
+
     // One of the clocks was set, or the far side is another one.
     void forget() { *this = {}; }
 
@@ -71,6 +82,8 @@ private:
     // The least of two such stretches counts, so that a way that has become longer is known as such in time.
     static constexpr Nanoseconds stretch = 5 * nanoseconds_per_second;
     static constexpr double smoothing = 1.0 / 32.0;
+    // Five requests, where none is asked for often.
+    static constexpr Nanoseconds silence = nanoseconds_per_second / 2;
 
     QueueFigures figures_;
     std::array<Nanoseconds, 2> ways_{};  // the last ones, newest first

@@ -55,6 +55,21 @@ TEST(QueueWatch, AQueueBehindChanceIsFound) {
     EXPECT_GT(told, 0.45);
 }
 
+TEST(QueueWatch, AQueueThatAnswersNothingIsThereStill) {
+    QueueWatch watch;
+    for (int i = 0; i < 10; ++i) {
+        const Nanoseconds at = i * 20 * ms;
+        watch.add(at, at + 10 * ms + (i > 4 ? 100 * ms : 0), at);
+    }
+    const Nanoseconds last = watch.figures().as_of;
+    watch.wait(last + 600 * ms, 120 * ms);
+    EXPECT_EQ(watch.figures().as_of, last) << "the answer may be on its way";
+    watch.wait(last + 700 * ms, 120 * ms);
+    EXPECT_EQ(watch.figures().as_of, last + 700 * ms);
+    EXPECT_TRUE(watch.figures().is_longer_than(threshold, true));
+    EXPECT_FALSE(watch.figures().falls());
+}
+
 // What is sent over a way with jitter, without a limit and without losses, is all that there is to send.
 TEST(Pace, JitterThrottlesNothingAndLosesNothing) {
     for (const JitterShape shape : {JitterShape::uniform, JitterShape::normal})

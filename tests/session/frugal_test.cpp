@@ -234,5 +234,19 @@ TEST(Frugal, StatesDoNotFillUpANarrowWay) {
     EXPECT_LT(found.longest, 90e6);
 }
 
+// Where both ways are too narrow, requests are lost on the one and answers on the other.
+TEST(Frugal, AWayThatIsFullEmptiesWithoutAnswers) {
+    for (const double rate : {200e3, 350e3, 400e3}) {
+        ModelRig rig(way(rate));
+        rig.far->session.set_gravity(Vec3(0.0));
+        for (int i = 0; i < 40; ++i) {
+            rig.far->add("Box" + std::to_string(i), tumbling(i));
+        }
+        rig.run(8 * second);
+        EXPECT_EQ(rig.near->builder.objects().size(), 40u) << rate;
+        EXPECT_LT(waits(rig, 10 * second).mean, 60e6) << rate << ": ns";
+    }
+}
+
 }  // namespace
 }  // namespace tactus::frugal_test
