@@ -138,9 +138,16 @@ Alone compare_with_alone(double turns, bool rough) {
     EXPECT_GT(alone.state_of(pushed)->pose.position.x, 0.22);
     EXPECT_EQ(linked.statistics().corrections, 0u);
     linked.ticks(200);
+    // A place that differs by rounding is a right one (OperatorSide::believed): a tool that leans on the
+    // block differs by as much, and no more.
+    const double block_apart = glm::distance(linked.near.pose(linked.watched[1]).position,
+                                             linked.far.pose(linked.watched[1]).position);
+    EXPECT_LT(block_apart, 2.0 * position_quantum);
     for (std::size_t tool = 0; tool < 2; ++tool) {
-        EXPECT_LT(glm::distance(linked.theirs(tool).pose.position, linked.ours(tool).pose.position), 1e-9);
-        EXPECT_LT(glm::distance(linked.theirs(tool).force, linked.ours(tool).force), 1e-6);
+        const ToolState& ours = linked.ours(tool);
+        const ToolState& theirs = linked.theirs(tool);
+        EXPECT_LT(glm::distance(theirs.pose.position, ours.pose.position), 1e-9 + block_apart);
+        EXPECT_LT(glm::distance(theirs.force, ours.force), 1e-6 + ToolSettings{}.stiffness * block_apart);
     }
     return seen;
 }
@@ -213,6 +220,8 @@ NeverThrough press_wrong_block(Correction correction, bool bad_network, const Bo
             before[tool] = linked.hand(tool).force;
         }
     }
+    // The plate pushes to the end: what is on its way comes while the hands hold still.
+    linked.ticks(300);
     seen.apart = glm::distance(linked.near.pose(linked.watched[1]).position,
                                linked.far.pose(linked.watched[1]).position);
     seen.corrections = static_cast<double>(linked.statistics().corrections);
@@ -236,8 +245,8 @@ TEST(LinkedToolPair, AWrongMassIsCorrectedAndTheToolsNeverPassThroughEachOther) 
 }
 
 // Of places that come late and singly some leave a tool of the model no room: it is lost until its hand is
-// where it fits in. In which tick depends on which packets are lost: half of the 2,850, once.
-constexpr int most_lost = 1'600;
+// where it fits in. In 18 of 20 networks it never is; a tenth of the ticks is allowed.
+constexpr int most_lost = 285;
 
 TEST(LinkedToolPair, NorDoTheyWherePacketsAreLostInBursts) {
     const NeverThrough seen = press_wrong_block(Correction::stealthy_direction, true, block(0.6, 0.05));

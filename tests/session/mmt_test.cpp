@@ -164,13 +164,14 @@ TEST(Mmt, HalfOfAllPacketsLostCostAboutTwiceTheForceError) {
     const double without = run_teleop(scene(true), one).at("force_error_mean_N");
     one.forth.loss = one.back.loss = 0.5;
     double mean = 0.0;
-    // Over 60 seeds 1.95 times, single ones 0.85 to 4.6 times: fifteen scatter by 0.28.
+    // Over 60 seeds 1.95 times, with a deviation of 0.74 for a single one: fifteen scatter by 0.19, and twice
+    // that is allowed.
     constexpr int seeds = 15;
     for (int seed = 1; seed <= seeds; ++seed) {
         one.seed = static_cast<std::uint64_t>(7 * seed);
         mean += run_teleop(scene(true), one).at("force_error_mean_N") / seeds;
     }
-    EXPECT_LT(mean, 2.8 * without);
+    EXPECT_LT(mean, 2.33 * without);
 }
 
 TEST(Mmt, AStillModelThatIsWrongIsRightSoonAfterTheFirstTouch) {
@@ -206,9 +207,8 @@ TEST(Mmt, ADeadbandSendsATenthOfTheSamplesAndFewerStatesForNoErrorThatIsNoticed)
     // Greetings and clocks, most of them in the first second, are among both.
     EXPECT_LT(figures.at("packets_forth_per_s"), 0.125 * all.at("packets_forth_per_s"));
     EXPECT_LT(figures.at("packets_back_per_s"), 0.8 * all.at("packets_back_per_s"));
-    // A pushed box turns as its corners slide, and so do the small errors of a guessed turn.
     EXPECT_LT(figures.at("force_error_mean_N"),
-              all.at("force_error_mean_N") + 1.5 * sparse.settings.stealth.least_noticeable);
+              all.at("force_error_mean_N") + sparse.settings.stealth.least_noticeable);
 }
 
 // A hand that is said now and then is played out no later than one that is always said.
