@@ -110,14 +110,14 @@ def _scenario1(summary: targets.Summary, folder: Path) -> str:
 def _scenario4(summary: targets.Summary, folder: Path) -> str:
     away = f"{float(summary['static.mmt.round_trip_ms']):.0f} ms"
     return html.section(
-        f"Scenario 4: the same touch, {away} away",
+        f"Scenario 4: a local model, {away} away",
         html.paragraph(
             "Two Godot processes over UDP: the hand is in one of them, what it touches in the other. Over a network the "
             "traditional way sends the hand's place there and the force back. With a local model, which the far side fills "
             "and corrects, the hand is answered at once. Errors are against direct touch with the same hand."
         ),
         html.table(gain.HEAD, gain.rows(summary)),
-        *_pictures(folder, "static_forces.png", "Ground and a sphere. The local model is exact; the traditional force is late."),
+        *_pictures(folder, "static_forces.png", "The thesis path over a ground and a sphere. The local model is exact; the traditional force is late."),
         *_pictures(folder, "dynamic_forces.png", "Pushing a box whose model is 20 % too heavy and too slippery, corrected all the time."),
     )
 

@@ -150,10 +150,10 @@ double TeleopPlace::depth() const {
     return pointer().contact_count > 0 ? glm::distance(pointer().hand, pointer().position) : 0.0;
 }
 
-bool TeleopPlace::touches_object() const {
+bool TeleopPlace::touches(SessionHandle body) const {
     const auto& bodies = pointer().bodies;
     const auto end = bodies.begin() + pointer().contact_count;
-    return object != no_handle && std::find(bodies.begin(), end, object) != end;
+    return body != no_handle && std::find(bodies.begin(), end, body) != end;
 }
 
 }  // namespace tactus::shared

@@ -66,7 +66,7 @@ struct TeleopPlace {
     const ProxyState& pointer() const { return session.snapshot().proxies[0]; }
     Pose pose_of(SessionHandle body) const;
     double depth() const;
-    bool touches_object() const;
+    bool touches(SessionHandle body) const;  // the pointer, that body; false for no_handle
 
     Session session;
     FeltDevice device;

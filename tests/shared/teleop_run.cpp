@@ -81,6 +81,7 @@ private:
     std::vector<std::optional<Pose>> believed_;  // by tick and moving body
     TeleopPorts ports_;
     Vec3 far_hand_{0.0}, far_force_{0.0};
+    std::vector<std::uint64_t> contact_ticks_;  // of direct touch, by body of the scene
     double largest_step_ = 0.0;
     std::uint64_t answered_ = 0;
     Nanoseconds away_until_ = 0;  // the far side starts anew then; 0: it does not
@@ -101,7 +102,8 @@ TeleopRun::TeleopRun(const TeleopScene& scene, const TeleopCase& experiment)
       builder_(model_.session, operator_port_),
       teller_(far_port_),
       settings_(experiment.settings),
-      rows_(static_cast<std::size_t>(experiment.seconds / tick_seconds)) {
+      rows_(static_cast<std::size_t>(experiment.seconds / tick_seconds)),
+      contact_ticks_(scene.bodies.size(), 0) {
     const bool corrects_later =
         experiment.correct_from_touch ||
         std::ranges::count(experiment.events, TeleopEvent::Kind::correct, &TeleopEvent::kind) > 0;
@@ -284,8 +286,11 @@ void TeleopRun::note_model(std::size_t tick) {
             row.model = pose.value_or(Pose{});
         }
     }
-    row.touches = model_.touches_object();
+    row.touches = model_.touches(model_.object);
     row.direct_touches = direct_.pointer().contact_count > 0;
+    for (std::size_t body = 0; body < contact_ticks_.size(); ++body) {
+        contact_ticks_[body] += direct_.touches(direct_.handles[body]) ? 1 : 0;
+    }
     const TeleopStatistics& statistics = operator_port_->statistics.front();
     row.let_go = (model_.pointer().status & felt_letting_go) != 0;
     row.told = statistics.corrections > 0;
@@ -391,6 +396,10 @@ TeleopFigures TeleopRun::run(TeleopBins* bins) {
 TeleopFigures TeleopRun::figures(TeleopBins* bins) {
     TeleopFigures figures = evaluate(rows_, experiment_, ports_, bins);
     figures["correction_force_step_max_N"] = largest_step_;
+    for (std::size_t body = 0; body < contact_ticks_.size(); ++body) {
+        figures[scene_.bodies[body].name + "_contact_share"] =
+            static_cast<double>(contact_ticks_[body]) / static_cast<double>(rows_.size());
+    }
     const TeleopStatistics& ours = operator_port_->statistics.front();
     const TeleopStatistics& theirs = far_port_->statistics.front();
     const auto per_second = [&](std::uint64_t count) {

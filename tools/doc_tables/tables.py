@@ -48,18 +48,20 @@ def static_errors(summary: Summary) -> Rows:
         "traditional, 0 ms": "traditional_0ms.force_error_mean_N",
         "traditional, 100 ms": "traditional_100ms.force_error_mean_N",
         **{f"… {way.replace('_', ' ')}, 100 ms": f"traditional_{way}_100ms.force_error_mean_N" for way in teleop_runs.PASSIVITY},
-        "right model, 100 ms": "mmt_right_100ms.force_error_mean_N",
-        "right model, 500 ms": "mmt_right_500ms.force_error_mean_N",
-        "wrong model, never corrected, 100 ms": "mmt_wrong_100ms.force_error_mean_N",
-        "wrong model, never corrected, 500 ms": "mmt_wrong_500ms.force_error_mean_N",
-        "the same over traditional, 100 ms": "mmt_wrong_100ms.over_traditional_100ms",
+        **{f"right model, {delay} ms": f"mmt_right_{delay}ms.force_error_mean_N" for delay in (100, 500, 5000)},
+        **{f"wrong model, never corrected, {delay} ms": f"mmt_wrong_{delay}ms.force_error_mean_N" for delay in (0, 100, 500, 5000)},
+        "… over traditional, 100 ms": "mmt_wrong_100ms.over_traditional_100ms",
+        "… the third turn over the first": "mmt_wrong_100ms.force_error_last_turn_over_first",
         "wrong model, default": "mmt_wrong_told_100ms.force_error_mean_N",
         "wrong model, corrected from the first touch on": "mmt_wrong_corrected_100ms.force_error_mean_N",
         "… right after the first touch (s)": "mmt_wrong_corrected_100ms.seconds_until_right",
         "… with passive updates": "mmt_wrong_corrected_100ms_passive_updates.force_error_mean_N",
         "… then right after the first touch (s)": "mmt_wrong_corrected_100ms_passive_updates.seconds_until_right",
     }
-    return [[label, *(cell(summary, f"{path}.{key}") for path in ("thesis_path", "waves"))] for label, key in lines.items()]
+    shares = {f"{body} in contact": f"{body}_contact_share" for body in ("ground", "sphere")}
+    paths = ("thesis_path", "waves")
+    found = [[label, *(percent(number(summary, f"{path}.{key}")) for path in paths)] for label, key in shares.items()]
+    return found + [[label, *(cell(summary, f"{path}.{key}") for path in paths)] for label, key in lines.items()]
 
 
 def static_trade(summary: Summary) -> Rows:

@@ -55,7 +55,8 @@ def run(given: dict[str, str], output: Path) -> dict[str, object]:
 
 def cases(settings: Settings) -> list[Case]:
     dynamic = teleop_runs.description("dynamic_mmt")
-    scenes = {"static": (teleop_runs.description("static_mmt")["scene"], None), "dynamic": (dynamic["scene"], dynamic["wrong"])}
+    thesis_path = teleop_runs.description("static_mmt")["paths"]["thesis_path"]
+    scenes = {"static": (thesis_path["scene"], None), "dynamic": (dynamic["scene"], dynamic["wrong"])}
     return [
         Case(f"{name}.{scenario}", scene, settings.seconds, number, settings.delay, wrong=wrong)
         for name, (scene, wrong) in scenes.items()

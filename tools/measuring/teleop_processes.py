@@ -5,6 +5,7 @@ in which the same hand touches the true environment directly.
 import json
 import os
 import subprocess
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -25,6 +26,7 @@ PROCESSORS = {OPERATOR: 1, FAR: 0}
 _PORT = 20000 + os.getpid() % 6000 * 2
 PORTS = {OPERATOR: _PORT, FAR: _PORT + 1}
 
+CORRECTED = "mmt_wrong_corrected_100ms"
 CORRECTIONS = ("none", "pose", "pose_velocity", "stealthy_magnitude", "stealthy_direction")
 DERIVATIONS = ("none", "velocity", "acceleration", "averaged", "history", "resimulate")
 
@@ -247,21 +249,24 @@ def _all_figures(cases: list[Case], output: Path) -> dict[str, dict[str, float]]
     return {name: figures(run) for name, run in play_all(cases, output).items()}
 
 
-def static_mmt(description: dict, seconds: float, output: Path) -> dict[str, float]:
-    scene, wrong = description["scene"], description["wrong"]
-    cases = [Case(f"traditional_{ms}ms", scene, seconds, TRADITIONAL, ms / 1000) for ms in (0, 100)]
-    cases += [Case(f"mmt_right_{ms}ms", scene, seconds, delay=ms / 1000) for ms in (0, 100, 500)]
-    cases += [
-        Case(f"mmt_wrong_{ms}ms", scene, seconds, delay=ms / 1000, correction="none", wrong=wrong) for ms in (0, 100, 500)
-    ]
-    corrected = "mmt_wrong_corrected_100ms"
-    cases.append(Case(corrected, scene, seconds, delay=0.1, wrong=wrong, corrects_from_touch=True))
-    found = _all_figures(cases, output)
-    errors = ("force_error_mean_N", "force_error_p95_N", "force_error_max_N", "force_error_shifted_mean_N")
-    summary = {f"{name}.{key}": figures[key] for name, figures in found.items() for key in (*errors, "round_trip_ms")}
-    for key in ("seconds_until_right", "correction_force_step_max_N"):
-        summary[f"{corrected}.{key}"] = found[corrected][key]
+def static_mmt(places: Sequence, delays: Sequence[int], output: Path) -> dict[str, float]:
+    """Each place of experiments/static_mmt.py: traditional touch, a right and a wrong model, and one that is corrected."""
+    summary = {}
+    for place in places:
+        found = _all_figures(static_cases(place, delays), output)
+        errors = ("force_error_mean_N", "force_error_p95_N", "force_error_max_N", "force_error_shifted_mean_N")
+        summary |= {f"{name}.{key}": figures[key] for name, figures in found.items() for key in (*errors, "round_trip_ms")}
+        corrected = f"{place.name}.{CORRECTED}"
+        summary |= {f"{corrected}.{key}": found[corrected][key] for key in ("seconds_until_right", "correction_force_step_max_N")}
     return summary
+
+
+def static_cases(place, delays: Sequence[int]) -> list[Case]:
+    scene, wrong, seconds = place.scene, place.wrong, place.seconds
+    cases = [Case(f"{place.name}.traditional_{ms}ms", scene, seconds, TRADITIONAL, ms / 1000) for ms in (0, 100)]
+    cases += [Case(f"{place.name}.mmt_right_{ms}ms", scene, seconds, delay=ms / 1000) for ms in delays]
+    cases += [Case(f"{place.name}.mmt_wrong_{ms}ms", scene, seconds, delay=ms / 1000, correction="none", wrong=wrong) for ms in delays]
+    return [*cases, Case(f"{place.name}.{CORRECTED}", scene, seconds, delay=0.1, wrong=wrong, corrects_from_touch=True)]
 
 
 def dynamic_mmt(description: dict, seconds: float, output: Path) -> dict[str, float]:

@@ -7,8 +7,8 @@ from plots import style
 from plots.teleop import WAYS, force_error, legend, read
 
 
-def draw(folder: Path, path: str) -> None:
-    """The thesis's figure 5.4: the force's vertical part, and the size of its error."""
+def draw(folder: Path, path: str, until: float) -> None:
+    """The thesis's figure 5.4, of the first `until` seconds: the force's vertical part, and the size of its error."""
     traditional = read(folder / f"{path}.traditional_100ms.csv")
     right, wrong = read(folder / f"{path}.mmt_right_100ms.csv"), read(folder / f"{path}.mmt_wrong_100ms.csv")
     drawn, ((force,), (error,)) = style.figure(2, 1, 9.0, 6.0, sharex=True)
@@ -16,22 +16,22 @@ def draw(folder: Path, path: str) -> None:
     force.plot(right["time"], traditional["force_y"], color=style.WARNING, linewidth=1.1, label="traditional, 100 ms")
     force.plot(right["time"], wrong["force_y"], color=style.REFERENCE, linewidth=1.1, label="wrong model")
     force.plot(right["time"], right["force_y"], color=style.MEASURED, linewidth=1.1, label="right model")
-    force.set(ylabel="force, vertical (N)", xlim=(0.0, 5.0))
+    force.set(ylabel="force, vertical (N)", xlim=(0.0, until))
     force.set_title(f"Touch of what stands still, 100 ms away: {path.replace('_', ' ')}", pad=24)
     legend(force)
     for rows, colour in ((traditional, style.WARNING), (wrong, style.REFERENCE), (right, style.MEASURED)):
         error.plot(rows["time"], force_error(rows), color=colour, linewidth=1.2)
     error.set(ylabel="force error (N)", xlabel="time (s)", ylim=(0, None))
     style.save(drawn, folder / f"{path}_forces.png")
-    _draw_correction(folder, path)
+    _draw_correction(folder, path, until)
 
 
-def _draw_correction(folder: Path, path: str) -> None:
+def _draw_correction(folder: Path, path: str, until: float) -> None:
     rows, wrong = read(folder / f"{path}.mmt_wrong_corrected_100ms.csv"), read(folder / f"{path}.mmt_wrong_100ms.csv")
     drawn, ((error,), (excess,)) = style.figure(2, 1, 9.0, 4.6, sharex=True, height_ratios=[2, 1])
     error.plot(wrong["time"], force_error(wrong), color=style.REFERENCE, linewidth=1.1, label="left wrong")
     error.plot(rows["time"], force_error(rows), color=style.MEASURED, label="corrected from the first touch on")
-    error.set(ylabel="force error (N)", xlim=(0.0, 5.0), ylim=(0, None))
+    error.set(ylabel="force error (N)", xlim=(0.0, until), ylim=(0, None))
     error.set_title("A wrong model becomes right", pad=24)
     legend(error)
     for one, colour in ((wrong, style.REFERENCE), (rows, style.MEASURED)):
