@@ -105,7 +105,8 @@ def setup(given: Given) -> int:
 
 
 def demo(_: Given) -> int:
-    tools = (("experiment.py", "scenario1"), ("experiment.py", "scenario4"), ("report.py",))
+    networked = ("experiment.py", "timing_networked", "--seconds=5", "--rounds=1")
+    tools = (("experiment.py", "scenario1"), networked, ("experiment.py", "scenario4"), ("report.py",))
     return next((code for tool in tools if (code := cache.run_tool(*tool))), 0)
 
 

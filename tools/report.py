@@ -122,6 +122,19 @@ def _scenario4(summary: targets.Summary, folder: Path) -> str:
     )
 
 
+def _timing_networked(summary: targets.Summary, folder: Path) -> str:
+    rows = [(one.case, one.what, one.found, one.wanted, one.met) for one in targets.timing_networked(summary)]
+    return html.section(
+        "Scenarios 2 and 4: how evenly both sides tick",
+        html.paragraph(
+            "Two Godot processes over UDP on one machine. A period is the time from when a recorded tick really ran to when the "
+            "next one did. A bare loop that only sleeps runs beside each side, on the same processor."
+        ),
+        html.table(("Side", "Figure", "Found", "Wanted", ""), rows, numbers_from=9),
+        *_pictures(folder, "both_sides_periods.png", "Periods of both sides and of the bare loops beside them (thesis figure 5.3)."),
+    )
+
+
 SEEN = {
     "discovered_s": ("Until the model has all that is there", "s"),
     "place_error_median_mm": ("Model from the true place, median", "mm"),
@@ -199,7 +212,7 @@ def _plain(value: object) -> str:
 
 
 # The experiments that have a section of their own, in this order.
-SCENARIOS = {"scenario1": _scenario1, "scenario4": _scenario4, "scenario5": _scenario5}
+SCENARIOS = {"scenario1": _scenario1, "timing_networked": _timing_networked, "scenario4": _scenario4, "scenario5": _scenario5}
 
 
 if __name__ == "__main__":

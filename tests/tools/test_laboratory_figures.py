@@ -1,11 +1,12 @@
 """Figures of experiments, recomputed from their rows by a second script (second_script.py)."""
 
+import csv
 from pathlib import Path
 
 import pytest
 import second_script
 
-from experiments import linked_touch, scenario1, scenario4
+from experiments import linked_touch, scenario1, scenario4, timing_networked
 from measuring import teleop_processes
 
 
@@ -42,3 +43,17 @@ def test_scenario4(tmp_path):
     runs = teleop_processes.play_all([case], tmp_path)
     found = teleop_processes.figures(runs[case.name])
     agree(found, second_script.scenario4(Path(tmp_path / f"{case.name}.csv")))
+
+
+def test_timing_networked(tmp_path):
+    """What is drawn is what is told: each figure again from the table of the distributions."""
+    found = timing_networked.run({"seconds": "1", "warmup": "0.5", "rounds": "1"}, tmp_path)
+    with (tmp_path / "both_sides_periods.csv").open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    for scenario in ("scenario2", "scenario4"):
+        for side in ("operator", "teleoperator"):
+            of_loop = [row for row in rows if (row["scenario"], row["loop"]) == (scenario, side)]
+            p90 = next(float(row["period_us"]) for row in of_loop if float(row["share"]) >= 0.9)
+            assert found[f"{scenario}.{side}.period_p90_us"] == pytest.approx(p90, abs=1.0)
+            assert [row for row in rows if (row["scenario"], row["loop"]) == (scenario, f"{side}_baseline")]
+    assert (tmp_path / "both_sides_periods.png").is_file()

@@ -54,3 +54,10 @@ def test_the_last_seconds_have_as_many_rows(tmp_path):
     path.write_text(HEADER + "".join(row(number) for number in range(5001)))
     for seconds in (1.0, 3.0, 4.0, 4.7):
         assert len(records.last_seconds(records.read(path), seconds).time) == round(1000 * seconds)
+
+
+def test_periods_are_of_ticks_as_they_ran_and_not_as_they_were_due(tmp_path):
+    path = tmp_path / "rows.csv"
+    ran = np.cumsum([0, 900, 1000, 1100, 1300, 700]) + 1_700_000_000_000_000
+    path.write_text("time_us,ran_us,contacts\n" + "".join(f"{ran[0] + 1000 * number},{one},0\n" for number, one in enumerate(ran)))
+    assert records.periods(path, 0.004) == pytest.approx([1000, 1100, 1300, 700])

@@ -85,6 +85,17 @@ def test_what_a_local_model_gives_is_told_where_it_was_measured(tmp_path):
     assert "10.0 × less" in words
 
 
+def test_periods_of_both_sides_are_told_where_they_were_measured(tmp_path):
+    folder = tmp_path / "timing_networked"
+    folder.mkdir()
+    figures = {f"scenario{number}.{side}.period_p90_us": 1000.0 + number for number in (2, 4) for side in ("operator", "teleoperator")}
+    (folder / "summary.json").write_text(json.dumps(figures))
+    (folder / "both_sides_periods.png").write_bytes(tiny_picture())
+    found = page(tmp_path)
+    assert found.words.count("1004.0 µs") == 2 and "scenario2, teleoperator" in found.words
+    assert len(found.sources) == 1
+
+
 def test_what_a_camera_saw_is_shown_where_it_was_measured(tmp_path):
     folder = tmp_path / "scenario5"
     folder.mkdir()

@@ -34,3 +34,11 @@ def test_too_much_work():
 
 def test_worse_than_the_machine_itself():
     assert unmet(tick_period_p99_us=1201.0) == ["Period, p99"]
+
+
+def test_each_side_over_a_network_has_its_verdict():
+    sides = {f"{scenario}.{side}.period_p90_us": 1001.0 for scenario in ("scenario2", "scenario4") for side in ("operator", "teleoperator")}
+    summary = sides | {"scenario4.operator.tick_period_p90_us": 5000.0, "scenario4.operator.baseline_period_p90_us": 5000.0}
+    assert [verdict.met for verdict in targets.timing_networked(summary)] == [True] * 4
+    late = targets.timing_networked(summary | {"scenario4.teleoperator.period_p90_us": 1150.1})
+    assert [verdict.case for verdict in late if not verdict.met] == ["scenario4, teleoperator"]

@@ -124,5 +124,5 @@ def _draw(case: Case, played: Run, record: records.Record, settings: Settings, o
 def _draw_periods(output: Path) -> None:
     from plots import periods
 
-    distributions = {case.name: periods.read(output / f"{case.name}_periods.csv") for case in CASES}
+    distributions = {f"{case.name.capitalize()} scene": periods.read(output / f"{case.name}_periods.csv") for case in CASES}
     periods.draw(distributions, output / "periods.png")

@@ -38,6 +38,14 @@ def read(path: Path) -> Record:
     )
 
 
+def periods(path: Path, seconds: float) -> np.ndarray:
+    """Of the last seconds: from each tick that really ran to the next one, which is not when they were due (unit: microseconds)."""
+    with path.open(newline="") as file:
+        column = next(csv.reader(file)).index("ran_us")
+        ran = np.loadtxt(file, delimiter=",", usecols=column, ndmin=1)
+    return np.diff(ran[-round(seconds * 1e3) - 1 :])
+
+
 def last_seconds(record: Record, seconds: float) -> Record:
     """The end of it, with a clock that starts there."""
     # Times are whole microseconds: half of one keeps rounding from adding a row.

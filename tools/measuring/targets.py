@@ -30,3 +30,17 @@ def scenario1(summary: Summary, case: str) -> list[Verdict]:
             case, "Period, p99", f"{p99:.1f} µs", f"at most 1.2 × the bare loop's {bare:.1f} µs", p99 <= 1.2 * bare
         ),
     ]
+
+
+# Both sides of both kinds of teleoperation (thesis 5.2, figure 5.3; unit: microseconds).
+NETWORKED_P90_US = 1150.0
+
+
+def timing_networked(summary: Summary) -> list[Verdict]:
+    """A verdict for each side of each scenario, by ticks as they really ran."""
+    ending = ".period_p90_us"
+    found = {key.removesuffix(ending): float(value) for key, value in summary.items() if key.endswith(ending)}
+    return [
+        Verdict(case.replace(".", ", "), "Nine of ten periods", f"{p90:.1f} µs", "at most 1150 µs (thesis)", p90 <= NETWORKED_P90_US)
+        for case, p90 in found.items()
+    ]

@@ -6,7 +6,7 @@ import json
 import os
 import subprocess
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -55,12 +55,14 @@ class Case:
     loss: float = 0.0
     warmup: float = 0.5  # of the statistics (unit: seconds)
     device: dict[str, float] = field(default_factory=dict)  # properties of the HapticDevice
+    baseline: bool = False  # a bare loop that only sleeps runs beside each of the two
 
     def options(self, side: int) -> dict[str, object]:
         options: dict[str, object] = {
             "link.scenario": self.scenario, "link.side": side, "link.conditions.delay": self.delay / 2,
             "link.conditions.loss": self.loss, "link.local_port": PORTS[side], "link.remote_port": PORTS[1 - side],
             "processor": PROCESSORS[side], "clock": "real", "duration": self.seconds, "warmup": self.warmup,
+            "baseline": int(self.baseline),
         }  # fmt: skip
         if side == OPERATOR:
             options |= self.device_options()
@@ -70,9 +72,16 @@ class Case:
             options["corrects"] = "touch" if self.corrects_from_touch else "always"
         return options
 
-
     def device_options(self) -> dict[str, object]:
         return {f"device.{name}": value for name, value in self.device.items()}
+
+
+@dataclass(frozen=True)
+class Loops:
+    """Of one side: how it ticked after the warm-up, and a bare loop beside it."""
+
+    periods: np.ndarray  # as its ticks really ran (unit: microseconds)
+    baseline: dict[str, list[float]]  # {"period_us", "share"}: how large a share of the periods is not longer
 
 
 @dataclass(frozen=True)
@@ -82,6 +91,7 @@ class Run:
     there: records.Record
     direct: records.Record
     statistics: dict[int, dict]  # by side: HapticWorld's, with the link's as "link"
+    loops: dict[int, Loops] = field(default_factory=dict)  # by side; empty: without a baseline
 
 
 def play(case: Case, folder: Path, direct: records.Record) -> Run:
@@ -96,10 +106,16 @@ def play(case: Case, folder: Path, direct: records.Record) -> Run:
     names = {OPERATOR: case.name, FAR: f"{case.name}_far"}
     statistics = {side: json.loads((folder / f"{name}_statistics.json").read_text()) for side, name in names.items()}
     rows = {side: records.read(folder / f"{name}.csv") for side, name in names.items()}
+    loops = {side: _loops(case, folder / name) for side, name in names.items()} if case.baseline else {}
     for name in names.values():
         for ending in ("_statistics.json", "_periods.json", ".csv"):
             (folder / f"{name}{ending}").unlink()
-    return _aligned(case, rows[OPERATOR], rows[FAR], direct, statistics)
+    return replace(_aligned(case, rows[OPERATOR], rows[FAR], direct, statistics), loops=loops)
+
+
+def _loops(case: Case, stem: Path) -> Loops:
+    baseline = json.loads(stem.with_name(f"{stem.name}_periods.json").read_text())["baseline"]
+    return Loops(records.periods(stem.with_name(f"{stem.name}.csv"), case.seconds - case.warmup), baseline)
 
 
 def direct_touch(case: Case, folder: Path) -> records.Record:
