@@ -16,7 +16,7 @@ const SIGNIFICANCE := 0.05
 const STATED_PREFERENCE := 0.75
 
 ## The two ways, as names of MMTLink.CorrectionScheme.
-@export var schemes := PackedStringArray(["CORRECTION_POSE", "CORRECTION_STEALTHY_DIRECTION"])
+@export var schemes := PackedStringArray(["CORRECTION_STEALTHY_TURN", "CORRECTION_STEALTHY_DIRECTION"])
 @export_range(2, 200) var trials := 30
 ## There and back.
 @export_range(0.0, 1.0, 0.001, "suffix:s") var delay := 0.1
@@ -102,14 +102,17 @@ func feel(which: int) -> void:
 		ClassDB.class_get_integer_constant("MMTLink", scheme) as MMTLink.CorrectionScheme
 	)
 	# A world that comes into the tree starts anew: gone is all that touch has taught the model.
+	# Both leave before one comes back, so that neither meets what the other was.
+	var testbeds := {}
 	for box in _boxes:
 		var its_world := box.get_parent()
-		var testbed := its_world.get_parent()
-		testbed.remove_child(its_world)
+		testbeds[its_world] = its_world.get_parent()
+		its_world.get_parent().remove_child(its_world)
 		box.transform = _stand
 		box.linear_velocity = Vector3.ZERO
 		box.angular_velocity = Vector3.ZERO
-		testbed.add_child(its_world)
+	for its_world: Node in testbeds:
+		(testbeds[its_world] as Node).add_child(its_world)
 	%Felt.text = "First" if which == 0 else "Second"
 
 

@@ -272,12 +272,12 @@ func test_schemes_are_compared_blind_and_as_often_the_one_first_as_the_other() -
 				int(link.correction_scheme), ClassDB.class_get_integer_constant("MMTLink", scheme), "scheme"
 			)
 			for label: Label in study.find_children("*", "Label", true, false):
-				for word: String in ["pose", "stealthy", "correction"]:
+				for word: String in ["carried", "stealthy", "correction"]:
 					check(not word in label.text.to_lower(), "'%s' gives it away" % label.text)
 		study.answer(0 if study.schemes[study.first] == "CORRECTION_STEALTHY_DIRECTION" else 1)
 	var rows := _rows(study.file.csv_path())
 	check_equal(rows.size(), 10, "rows")
-	var first := rows.filter(func(row: Dictionary) -> bool: return row.first == "CORRECTION_POSE")
+	var first := rows.filter(func(row: Dictionary) -> bool: return row.first == "CORRECTION_STEALTHY_TURN")
 	check_equal(first.size(), 5, "trials with the one as the first")
 	for row in rows:
 		check_equal(row.chosen, "CORRECTION_STEALTHY_DIRECTION", "chosen")

@@ -191,6 +191,22 @@ def gate(summary: Summary) -> Rows:
     ]
 
 
+# --- carried
+
+CARRIED = {
+    "carried, translated": "stealthy_translate", "carried, turned": "stealthy_turn", "masked, size kept": "stealthy_magnitude",
+    "**masked, direction kept**": "stealthy_direction", "neither": "pose_velocity",
+}  # fmt: skip
+TURNS = (0, 5, 10, 15, 20)
+CARRIED_FIGURES = ("felt_excess_100ms_jnd_p99", "force_error_over_never_corrected")
+
+
+def carried(summary: Summary) -> Rows:
+    return [
+        [label, *(cell(summary, f"{scheme}.{turn}deg.{key}") for key in CARRIED_FIGURES for turn in TURNS)] for label, scheme in CARRIED.items()
+    ]
+
+
 DYNAMIC_RUN = (("grid", "0"), ("pictures", "0"))
 PLAIN = (("pictures", "0"),)
 _VARIANT_HEAD = ("", *(variant.replace("_", " ") for variant in VARIANTS))
@@ -226,6 +242,11 @@ TABLES: dict[str, Table] = {
     "gate": Table(_PAGE, "gate", PLAIN, ("C′", "never corrected", "default"), gate),
     "closed_loop_static": Table(_PAGE, "closed_loop", PLAIN, _CLOSED_HEAD, closed_loop("static")),
     "closed_loop_dynamic": Table(_PAGE, "closed_loop", PLAIN, _CLOSED_HEAD, closed_loop("dynamic")),
+    "carried": Table(
+        _PAGE, "carried", PLAIN,
+        ("", "excess force in 100 ms, 99 % (JND), 0°", "5°", "10°", "15°", "20°", "force error over never correcting, 0°", "5°", "10°", "15°", "20°"),
+        carried,
+    ),
     "data_reduction": Table(
         _PAGE, "data_reduction", PLAIN,
         ("", "packets there (1/s)", "back (1/s)", "kbit/s", "force changed by, mean (JND)", "p95", "p99", "touching ticks above one JND"),

@@ -1,7 +1,8 @@
 """The ways to touch over a network that every experiment compares, each with its best settings (./run experiment tuning).
 
 With a model of the far side: never corrected; pose alone, the thesis's; velocities, its equation 3.1; passive updates,
-whose corrections are paid for by what touch has taken; and the default. Without one, traditional touch: as it is, and
+whose corrections are paid for by what touch has taken; pointers carried along with a corrected object, translated or turned (thesis
+3.1.4); and the default. Without one, traditional touch: as it is, and
 with each scheme that keeps it passive.
 """
 
@@ -29,6 +30,8 @@ MODELS: dict[str, Case] = {
     "pose_only": {"correction": "pose", "derivation": "none"},
     "velocities": {"correction": "pose_velocity", "derivation": "velocity"},
     "passive_updates": {"correction": "passive"},
+    "carried_translate": {"correction": "stealthy_translate"},
+    "carried_turn": {"correction": "stealthy_turn"},
 }
 MODELS = {scheme: keys | TUNED.get(scheme, {}) for scheme, keys in MODELS.items()}
 TRADITIONAL: dict[str, Case] = {
@@ -41,7 +44,8 @@ PASSIVE = ("passive_updates", *(scheme for scheme in TRADITIONAL if scheme != "t
 
 LABELS = {
     DEFAULT: "default", "never_corrected": "never corrected", "pose_only": "pose alone (thesis)",
-    "velocities": "velocities (eq. 3.1)", "passive_updates": "passive updates", "traditional": "traditional",
+    "velocities": "velocities (eq. 3.1)", "passive_updates": "passive updates", "carried_translate": "carried, translated (3.1.4)",
+    "carried_turn": "carried, turned (3.1.4)", "traditional": "traditional",
     "traditional_wave_variables": "… wave variables", "traditional_time_domain": "… time domain",
     "traditional_two_layers": "… two layers",
 }  # fmt: skip

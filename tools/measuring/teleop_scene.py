@@ -78,7 +78,7 @@ class Scene:
     def varied(self, variation: dict) -> str:
         """What the runner reads, with copies of bodies elsewhere, hinges to the world, and another path of the hand:
         {"copies": {"Box2": {"of": "Box", "at": [x, y, z]}}, "hinges": {"Box": {"at": [x, y, z], "axis": [x, y, z]}},
-        "frictionless": ["Box"], "without": ["Sphere"], "path": [[seconds, x, y, z], …]}
+        "frictionless": ["Box"], "damping": {"Box": [linear, angular]}, "without": ["Sphere"], "path": [[seconds, x, y, z], …]}
         """
         lines = self.lines().splitlines()
         if "path" in variation:
@@ -91,6 +91,9 @@ class Scene:
             start = next(i for i, line in enumerate(lines) if line.startswith(f"body {name} "))
             words = lines[start].split()
             lines[start] = " ".join([*words[:8], "0", "0", *words[10:]])
+        for name, damping in variation.get("damping", {}).items():
+            start = next(i for i, line in enumerate(lines) if line.startswith(f"body {name} "))
+            lines[start] = " ".join([*lines[start].split()[:-2], *_texts(damping)])
         for name, copy in variation.get("copies", {}).items():
             start = next(i for i, line in enumerate(lines) if line.startswith(f"body {copy['of']} "))
             _, _, *words = lines[start].split()

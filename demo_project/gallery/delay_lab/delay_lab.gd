@@ -13,6 +13,8 @@ const CORRECTIONS := {
 	"Pose, velocities": MMTLink.CORRECTION_POSE_VELOCITY,
 	"Stealthy: magnitude": MMTLink.CORRECTION_STEALTHY_MAGNITUDE,
 	"Stealthy: direction": MMTLink.CORRECTION_STEALTHY_DIRECTION,
+	"Carried: translate": MMTLink.CORRECTION_STEALTHY_TRANSLATE,
+	"Carried: turn": MMTLink.CORRECTION_STEALTHY_TURN,
 }
 const DERIVATIONS := {
 	"What was true": TeleopTuning.DERIVATION_NONE,
