@@ -15,7 +15,7 @@ ADDON = cache.clone() / "demo_project/addons/tactus"
 WITH_A_UNIT = ("float", "Vector3", "PackedVector3Array", "PackedFloat64Array")
 # In words or in signs; of what has no dimension, what it is instead.
 _UNIT = re.compile(
-    r"metre|newton|second|radian|degree|kilogram|joule|watt|pixel|\bHz\b|N·m·s|N·m|N·s|N/m|rad/s|m/s|J\b"
+    r"meter|newton|second|radian|degree|kilogram|joule|watt|pixel|\bHz\b|N·m·s|N·m|N·s|N/m|rad/s|m/s|J\b"
     r"|share|factor|coefficient|0 to 1|direction|normal|how many|for each|over what|unit of",
     re.IGNORECASE,
 )
@@ -88,6 +88,44 @@ def test_what_lacks_something_is_found():
     method = next(one for one in table.all("method") if one.get("name") == "get_force")
     method.find("description").text = "How firmly it is pushed."
     assert _of_call(method) == ["has no unit"]
+
+
+def test_getters_and_booleans_are_in_godots_form():
+    wrong, counted = [], Counter()
+    for table in TABLES:
+        for one in (method for method in table.all("method") if not method.get("hidden")):
+            text, name = _text(one.find("description")), f"{table.name}.{one.get('name')}"
+            if one.find("return").get("type") == "void":
+                continue
+            counted["returns"] += 1
+            is_getter = re.match("get_|is_|has_|find_|sample", one.get("name"))
+            if not (text.startswith("Returns ") if is_getter else "Returns " in text):
+                wrong.append(f"{name} does not say what it returns")
+        for one in (member for member in table.all("member") if member.get("type") == "bool"):
+            counted["bool"] += 1
+            if not _text(one).startswith("If [code]true[/code], "):
+                wrong.append(f"{table.name}.{one.get('name')} does not begin with 'If [code]true[/code], '")
+        for one in table.all("signal"):
+            if not _text(one.find("description")).startswith("Emitted "):
+                wrong.append(f"{table.name}.{one.get('name')} does not say when it is emitted")
+    assert not wrong
+    assert counted["returns"] >= 80 and counted["bool"] >= 25, counted
+
+
+def test_every_text_is_of_whole_sentences():
+    for table in TABLES:
+        for one in (*table.all("member"), *table.all("constant"), *table.all("statistic"), *table.all("description"), *table.all("brief_description")):
+            text = _text(one)
+            assert not text or text.endswith((".", ":", "[/codeblock]", "[/code]")), f"{table.name} {one.attrib}: {text[-40:]}"
+
+
+def test_every_class_leads_to_a_page():
+    """Godot opens links of http alone, and these pages are at no address: a link is a path in the clone, and a link of ./run docs."""
+    for table in TABLES:
+        links = table.root.findall("tutorials/link")
+        assert links, f"{table.name} has no tutorial"
+        for link in links:
+            assert link.get("title") and (cache.clone() / (link.text or "")).is_file(), f"{table.name}: {link.text}"
 
 
 def test_every_class_has_an_icon_and_every_icon_a_class():

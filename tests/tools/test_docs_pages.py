@@ -42,7 +42,7 @@ def test_pages_bring_everything_that_they_show(pages):
 
 def test_no_markup_of_the_editor_is_left(pages):
     for page in (pages / "classes").glob("*.html"):
-        assert not re.search(r"\[(?:member|method|constant|enum|signal|param|code|/code|b|/b)\b", page.read_text()), page
+        assert not re.search(r"\[(?:member|method|constant|enum|signal|param|code|/code|codeblock|/codeblock|b|/b)\b", page.read_text()), page
 
 
 def test_a_page_that_nothing_leads_to_is_an_error(tmp_path):
@@ -68,6 +68,7 @@ def class_page(text: str) -> str:
         ("[param far_away] [i]so[/i]", "`far_away` *so*"),
         ("One.\n\t\tTwo.", "One.\n\nTwo."),
         ("[code]key[/code]: what it is.", "- `key`: what it is."),
+        ("Begin.\n\t\t[codeblock]\n\t\tif a:\n\t\t    b[0] = *c\n\t\t[/codeblock]\n\t\tEnd.", "Begin.\n\n```gdscript\nif a:\n    b[0] = *c\n```\n\nEnd."),
     ],
 )
 def test_the_markup_of_the_editor_in_markdown(markup, markdown):

@@ -1,6 +1,8 @@
 """The class reference (extension/doc_classes/*.xml) as pages: what F1 shows in the editor, for a browser."""
 
+import itertools
 import re
+import textwrap
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Iterable
 
@@ -34,16 +36,22 @@ class Reference:
         root = self._roots[name]
         parts = [
             f"# {name}", f"Inherits {self._link(root.get('inherits', ''), name)}.",
-            self._text(root, "brief_description", name), self._text(root, "description", name),
+            self._text(root, "brief_description", name), self._text(root, "description", name), _tutorials(root),
             *self._members(root, name), *self._calls(root, name, "method", "Methods"), *self._calls(root, name, "signal", "Signals"),
             *self._constants(root, name),
         ]  # fmt: skip
         return "\n\n".join(part for part in parts if part) + "\n"
 
     def markdown(self, text: str, owner: str) -> str:
-        """Godot's markup; each of its lines is a paragraph, and lines that explain a key are a list."""
+        """Godot's markup; each of its lines is a paragraph, lines that explain keys are a list, a code block is one of GDScript."""
+        parts = re.split(r"\[codeblock\]\n(.*?)\[/codeblock\]", text, flags=re.DOTALL)
+        blocks = [f"```gdscript\n{textwrap.dedent(code).rstrip()}\n```" for code in parts[1::2]]
+        prose = [self._paragraphs(part, owner) for part in parts[::2]]
+        return "\n\n".join(part for pair in itertools.zip_longest(prose, blocks) for part in pair if part)
+
+    def _paragraphs(self, text: str, owner: str) -> str:
         lines = [" ".join(line.split()) for line in text.strip().splitlines() if line.strip()]
-        items = [("- " if re.match(r"\[code\]\w+\[/code\]: ", line) else "") + self._line(line, owner) for line in lines]
+        items = [("- " if re.match(r"\[code\]\w+\[/code\](, \[code\]\w+\[/code\])*: ", line) else "") + self._line(line, owner) for line in lines]
         return "\n\n".join(items)
 
     def _line(self, line: str, owner: str) -> str:
@@ -123,6 +131,12 @@ class Reference:
                 name = one.get("name", "")
                 parts.append(f"({_target(owner, name)})=\n- `{name}` = {one.get('value')}: {self.markdown(one.text or '', owner)}")
         return parts
+
+
+def _tutorials(root: ElementTree.Element) -> str:
+    """Pages of docs/, one folder above the classes' pages."""
+    links = [f"- [{_plain(link.get('title', ''))}]({(link.text or '').strip().replace('docs/', '../', 1)})" for link in root.findall("tutorials/link")]
+    return "\n".join(["**Read on:**\n", *links]) if links else ""
 
 
 def _heading(owner: str, element: ElementTree.Element) -> str:
