@@ -28,14 +28,18 @@ def kept(work: Callable[[], int]) -> int:
     _prctl(_PR_SET_CHILD_SUBREAPER, 1)  # whose parent ends becomes a child of this one
     sys.stdout.flush()
     keeper = os.getpid()
+    # The child may be at work before this process is scheduled again: no signal may come until it can be passed on.
+    signal.pthread_sigmask(signal.SIG_BLOCK, _ENDING)
     child = os.fork()
     if child == 0:
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, _ENDING)
         _prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)
         _prctl(_PR_SET_CHILD_SUBREAPER, 1)
         _leave_with(work if os.getppid() == keeper else lambda: 1)
     for number in _ENDING:
         if signal.getsignal(number) != signal.SIG_IGN:
             signal.signal(number, lambda number, _: _signal(child, number))
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, _ENDING)
     code = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
     for number in _ENDING:
         signal.signal(number, signal.SIG_IGN)

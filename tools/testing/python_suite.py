@@ -22,7 +22,7 @@ def has(wanted: str) -> bool:
 
 def programs_with(wanted: str) -> list[str]:
     """What scons has to build beside the extension for the tests whose name contains the words."""
-    return ["fuzzers"] if matching(_named_in(cache.clone() / "tests/tools/test_proof.py"), wanted) else []
+    return ["fuzzers"] if any(matching(_named_in(path), wanted) for path in (cache.clone() / "tests/tools").glob("test_proof.py")) else []
 
 
 def _named_in(path: Path) -> list[str]:
