@@ -42,6 +42,7 @@ bool Channel::peer_has_started() {
         return false;
     }
     peer_epoch_ = epoch;
+    met_at_ = now_;
     hellos_ = 0;
     ++starts_;
     return true;
@@ -124,10 +125,14 @@ Disagreement Channel::found() const {
 
 void Channel::end_tick(TeleopStatistics& statistics) {
     link_.end_tick();
-    // With every hello while the two meet, later with every fifth: any of them may be lost.
-    constexpr std::uint64_t meeting = 20, every = 5;
-    if (own_changed_ || (link_.has_said_hello() && (hellos_ < meeting || hellos_ % every == 0))) {
+    // Often when the two meet, later with every fifth hello: any of them may be lost, and until they have
+    // come no far hand presses what the operator's own does already.
+    constexpr Nanoseconds meeting = nanoseconds_per_second, often = 20'000'000;
+    constexpr std::uint64_t every = 5;
+    const bool meets = link_.hears_peer() && now_ - met_at_ < meeting && now_ - told_at_ >= often;
+    if (own_changed_ || meets || (link_.has_said_hello() && hellos_ % every == 0)) {
         own_changed_ = !link_.send(own_);
+        told_at_ = now_;
     }
     hellos_ += link_.has_said_hello() ? 1 : 0;
     statistics.disagreement = disagreement_;

@@ -61,6 +61,8 @@ private:
     Side side_;
     Terms own_, peer_;
     bool own_changed_ = true;
+    Nanoseconds met_at_ = 0;               // the far side's last start was heard
+    Nanoseconds told_at_ = 0;              // own_ was sent last
     std::uint64_t hellos_ = 0;             // since the far side's last start
     std::uint64_t peer_terms_epoch_ = 0;   // whose peer_ is; 0: not known
     std::uint64_t peer_terms_packet_ = 0;  // that brought it
