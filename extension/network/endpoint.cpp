@@ -158,6 +158,7 @@ void Endpoint::meet(std::uint64_t epoch) {
     hello_sequence_ = bye_sequence_ = 0;
     reported_packets_ = reported_sequence_ = 0;
     statistics_.lost_there = lost_there_ = 0.0;
+    statistics_.loss_unknown = 1.0;
     clock_.forget();
     queue_there_.forget();
     statistics_.clock = {};
@@ -228,10 +229,14 @@ void Endpoint::note_report(const Hello& hello) {
         const auto sent = static_cast<double>(hello.heard_sequence - reported_sequence_);
         const auto came = static_cast<double>(hello.heard_packets - reported_packets_);
         // Below 0 where what was overtaken before comes: only so does the mean count it once.
-        const double lost = reported_sequence_ == 0 ? 0.0 : std::clamp(1.0 - came / sent, -1.0, 1.0);
-        const double share = sent / (sent + as_much_as_all_before);
-        lost_there_ += share * (lost - lost_there_);
-        statistics_.lost_there = std::max(lost_there_, 0.0);
+        // The first report tells only from where on the far side counts.
+        if (reported_sequence_ != 0) {
+            const double lost = std::clamp(1.0 - came / sent, -1.0, 1.0);
+            const double share = sent / (sent + as_much_as_all_before);
+            lost_there_ += share * (lost - lost_there_);
+            statistics_.lost_there = std::max(lost_there_, 0.0);
+            statistics_.loss_unknown *= 1.0 - share;
+        }
     }
     reported_sequence_ = hello.heard_sequence;
     reported_packets_ = hello.heard_packets;

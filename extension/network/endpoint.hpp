@@ -69,6 +69,7 @@ struct LinkStatistics {
     ClockFigures clock;
     QueueFigures queue_there;     // on the way to the far side
     double lost_there = 0.0;      // share of what was sent that the far side misses, of late, 0 … 1
+    double loss_unknown = 1.0;    // how much of that figure rests on no report yet, but on 0: 1 … 0
     double one_way_delay = 0.0;   // of packets that came, smoothed; 0 without a clock (unit: nanoseconds)
     double one_way_jitter = 0.0;  // mean change of it from packet to packet (unit: nanoseconds)
 };

@@ -23,6 +23,8 @@ constexpr Nanoseconds settling = 200'000'000;
 // From one time that something is said of what stands to the next: as long as word of losses takes to come.
 constexpr Nanoseconds again_after = 100'000'000;
 constexpr double hardly = 1e-3;  // a doubt that is none
+// Share lost of what is said before the far side has reported: until then no loss is no better a guess.
+constexpr double lost_if_unknown = 0.5;
 
 // What stands is said once more after that, as many bodies in one turn as a packet holds.
 constexpr Nanoseconds healed_after = 4 * nanoseconds_per_second;
@@ -232,7 +234,9 @@ void StateTeller::note_told(SessionLoop& loop, const Channel& channel, SessionHa
     told.again = channel.settings().deadband.enabled && losing_ && !told.again;
     if (told.due != 0) {
         ++told.times;
-        const double doubt = std::pow(channel.link().statistics().lost_there, told.times);
+        const LinkStatistics& link = channel.link().statistics();
+        const double lost = link.lost_there + lost_if_unknown * link.loss_unknown;
+        const double doubt = std::pow(lost, told.times);
         told.due = doubt > hardly ? tick_ + ticks(again_after) : 0;
     }
 }

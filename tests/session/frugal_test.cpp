@@ -100,8 +100,9 @@ TEST(Frugal, WhatStandsIsPutRightAfterItWasDescribed) {
     }
 }
 
-TEST(Frugal, WhatStandsAndIsPutElsewhereIsTold) {
-    ModelRig rig(way(0.0, 0.3));
+void expect_told_elsewhere(std::uint64_t network) {
+    SCOPED_TRACE(network);
+    ModelRig rig(way(0.0, 0.3), {}, network);
     const SessionHandle moved = rig.far->add("Stone", stone(0));
     rig.far->add("Other", stone(1));
     rig.run(2 * second);
@@ -117,6 +118,12 @@ TEST(Frugal, WhatStandsAndIsPutElsewhereIsTold) {
     rig.near->device.position = there + Vec3(0.0, 0.1, 0.0);
     rig.run(3 * second);
     EXPECT_GT(felt_at(rig, there), 0.5);
+}
+
+TEST(Frugal, WhatStandsAndIsPutElsewhereIsTold) {
+    for (std::uint64_t network = 1; network <= 20; ++network) {
+        expect_told_elsewhere(network);
+    }
 }
 
 // Whoever has the key may say anything; nothing false of it stays for ever.

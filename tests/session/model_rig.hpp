@@ -116,10 +116,12 @@ struct Operator {
 };
 
 struct ModelRig {
-    explicit ModelRig(const LinkConditions& conditions = {}, const TeleopSettings& settings_of_both = {})
+    // `network`: which packets chance hits, from 1 on.
+    explicit ModelRig(const LinkConditions& conditions = {}, const TeleopSettings& settings_of_both = {},
+                      std::uint64_t network = 1)
         : settings(settings_of_both),
-          at_operator(wire.first(), conditions, 1),
-          at_environment(wire.second(), conditions, 2) {
+          at_operator(wire.first(), conditions, 2 * network - 1),
+          at_environment(wire.second(), conditions, 2 * network) {
         start_operator(1);
         start_environment(2);
     }
