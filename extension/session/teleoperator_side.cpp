@@ -59,6 +59,7 @@ void TeleoperatorSide::receive(SessionLoop& loop) {
 void TeleoperatorSide::start_over_if_peer_has(SessionLoop& loop) {
     if (channel_.peer_has_started()) {
         release_hands(loop);
+        forget_operator();
         telling_.restart();
         force_pace_.restart();
     }
@@ -79,6 +80,18 @@ void TeleoperatorSide::release_hands(SessionLoop& loop) {
     }
 }
 
+// Its hands were elsewhere: those of another operator are not led there from where they were lost.
+void TeleoperatorSide::forget_operator() {
+    for (Pointer& pointer : pointers_) {
+        pointer.is_new = true;
+        pointer.kept = {};
+    }
+    for (Tool& tool : tools_) {
+        tool.is_new = true;
+        tool.kept = {};
+    }
+}
+
 void TeleoperatorSide::play(SessionLoop& loop, std::size_t index, SessionLoop::ProxySlot& slot) {
     Pointer& pointer = pointers_[index];
     pointer.playing = hands_.play(index, pointer.played);
@@ -90,7 +103,8 @@ void TeleoperatorSide::play(SessionLoop& loop, std::size_t index, SessionLoop::P
         pointer.here.velocity = direction_to_parent(frame, pointer.played.velocity);
         pointer.here.force = direction_to_parent(frame, pointer.played.force);
     }
-    if (waits || !pointer.played.connected || !channel_.works_together(index)) {
+    const bool another_goes = pointer.is_new && !slot.idle;
+    if (waits || another_goes || !pointer.played.connected || !channel_.works_together(index)) {
         let_go(loop, pointer, slot);
         return;
     }
@@ -104,7 +118,7 @@ void TeleoperatorSide::play(SessionLoop& loop, std::size_t index, SessionLoop::P
             come_back(loop, pointer, slot);
         }
     }
-    slot.idle = pointer.goes = false;
+    slot.idle = pointer.goes = pointer.is_new = false;
     play_hand(loop, pointer, slot);
     const auto hand = hands_.leads(index) ? PressLimit::Hand::guessed : PressLimit::Hand::here;
     if (pointer.limit.binds(hand)) {
@@ -119,7 +133,7 @@ void TeleoperatorSide::let_go(SessionLoop& loop, Pointer& pointer, SessionLoop::
     if (slot.idle) {
         return;
     }
-    if (!std::exchange(pointer.goes, true)) {
+    if (!std::exchange(pointer.goes, true) && !pointer.is_new) {
         const Pose proxy{slot.state.position, Quat(1.0, 0.0, 0.0, 0.0)};
         pointer.kept = kept(loop, slot.state, proxy);
     }

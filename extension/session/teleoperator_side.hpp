@@ -50,6 +50,7 @@ private:
         PointerSample played;
         PointerSample here;  // the same in this side's scene
         Playing playing = Playing::waiting;
+        bool is_new = true;      // this operator's hand has not been there: no place of it is kept
         bool holds = false;      // a hand is there
         bool goes = false;       // it was there, and presses on with less and less
         Vec3 hand{0.0};          // where the stand-in has put it (unit: meters)
@@ -64,6 +65,7 @@ private:
     // One that holds a tool: the stand-in is always a spring to it.
     struct Tool {
         OperatorSample played;
+        bool is_new = true;  // as for a pointer
         bool holds = false;  // a hand is there
         bool goes = false;   // it was there, and presses on with less and less
         bool idle = true;    // it touches nothing
@@ -83,6 +85,7 @@ private:
     void receive(SessionLoop& loop);
     void start_over_if_peer_has(SessionLoop& loop);
     void release_hands(SessionLoop& loop);
+    void forget_operator();
     void play(SessionLoop& loop, std::size_t index, SessionLoop::ProxySlot& slot);
     void play_hand(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot);
     void draw_back(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot, PressLimit::Hand hand);

@@ -15,7 +15,9 @@ void TeleoperatorSide::play(SessionLoop& loop, std::size_t index, ToolSlot& slot
     Tool& tool = tools_[index];
     const bool waits = hands_.play(slot, tool.played) == Playing::waiting;
     const bool is_given = slot.hand.holds;
-    if (waits || !tool.played.connected || !is_given || !channel_.works_together(first_tool + index)) {
+    const bool another_goes = tool.is_new && !tool.idle;
+    if (waits || another_goes || !tool.played.connected || !is_given ||
+        !channel_.works_together(first_tool + index)) {
         let_go(loop, tool, slot);
         return;
     }
@@ -33,13 +35,13 @@ void TeleoperatorSide::play(SessionLoop& loop, std::size_t index, ToolSlot& slot
             come_back(loop, tool, slot);
         }
     }
-    tool.idle = tool.goes = false;
+    tool.idle = tool.goes = tool.is_new = false;
 }
 
 // See let_go() for a pointer.
 void TeleoperatorSide::let_go(SessionLoop& loop, Tool& tool, ToolSlot& slot) const {
     tool.holds = false;
-    if (!tool.idle && !std::exchange(tool.goes, true)) {
+    if (!tool.idle && !std::exchange(tool.goes, true) && !tool.is_new) {
         tool.kept = kept(loop, slot.state, slot.state.pose);
     }
     if (tool.idle || !slot.hand.holds || tool.limit.is_gone()) {

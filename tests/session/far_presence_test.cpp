@@ -323,5 +323,29 @@ TEST(FarPresence, AfterADeadLineAHandThatHasGoneAroundIsThere) {
     EXPECT_LT(glm::distance(places.far.session.snapshot().proxies[0].position, hand.position), 1e-3);
 }
 
+// The far side is there first when the operator presses its model already, as after a restart.
+TEST(FarPresence, AHandThatIsHeardFirstWhileItPressesPushesNothing) {
+    for (const TeleopSettings& settings : {TeleopSettings{}, traditional(), with_deadband()}) {
+        SCOPED_TRACE(settings.traditional ? "traditional" : settings.deadband.enabled ? "deadband" : "model");
+        LinkedPlaces places(0.05, 0.0, 1, settings, settings);
+        places.add(ground());
+        const SessionHandle box =
+            places.add(body(BoxShape{Vec3(0.075)}, {0.0, 0.075, 0.25}, Motion::Dynamic, 0.3));
+        places.settle();
+        places.lose_everything(true);
+        HeldDevice& hand = places.near.devices[0];
+        for (int i = 0; i <= 500; ++i) {
+            hand.position = {0.0, 0.3 - 0.17 * i / 500.0, 0.25};
+            places.tick();
+        }
+        const Vec3 before = places.far.pose(box).position;
+        Watch watch(places);
+        places.lose_everything(false);
+        const Watched heard = watch.ticks(1000);
+        EXPECT_EQ(heard.largest_force, 0.0);
+        EXPECT_LT(glm::distance(places.far.pose(box).position, before), 1e-4);
+    }
+}
+
 }  // namespace
 }  // namespace tactus::far_presence_test

@@ -118,15 +118,15 @@ struct Place {
 class TeleopBadInput : public ::testing::Test {
 protected:
     TeleopBadInput() {
-        start_operator();
+        start_operator(1);
         start_far(100);
     }
 
-    void start_operator() {
+    void start_operator(std::uint64_t epoch) {
         near = std::make_unique<Place>();
         near->session.attach(std::make_unique<OperatorSide>(small_session(), OperatorRoom{}, TeleopSettings{},
                                                             to_operator, near->port,
-                                                            endpoint(Side::operator_side, 1)));
+                                                            endpoint(Side::operator_side, epoch)));
         near->fill(wrong_mass);
         for (const SessionHandle handle : {ground, box}) {
             near->port->bindings.try_push({handle, handle});
@@ -340,6 +340,28 @@ TEST_F(TeleopBadInput, AFarSideThatRestartsMovesNothing) {
     EXPECT_EQ(near->statistics().link.peer_epoch, 200u);
     EXPECT_EQ(near->statistics().link.peer_restarts, 1u);
     expect_nothing_has_happened();
+}
+
+// It is not led there from where the other one was lost.
+TEST_F(TeleopBadInput, AnotherOperatorThatPressesAtOnceMovesNothing) {
+    near->device.position = {-0.2, 0.05, 0.0};
+    ticks(500);
+    near.reset();
+    for (int i = 0; i < 2500; ++i) {
+        far->tick(now += period);
+    }
+    start_operator(2);
+    for (int i = 0; i < 500; ++i) {
+        near->device.position = {0.0, 0.2 - 0.115 * i / 500.0, 0.0};
+        near->tick(now += period);
+        std::array<std::byte, 2048> unheard;
+        while (to_far.receive(unheard, now)) {
+        }
+    }
+    const Vec3 box_before = far->box_position();
+    ticks(1000);
+    EXPECT_EQ(far->statistics().link.peer_restarts, 1u);
+    EXPECT_LT(glm::distance(far->box_position(), box_before), 1e-4);
 }
 
 TEST_F(TeleopBadInput, ARestartIsNoticedWithoutAnyData) {
