@@ -113,11 +113,15 @@ def _scenario4(summary: targets.Summary, folder: Path) -> str:
         f"Scenario 4: a local model, {away} away",
         html.paragraph(
             "Two Godot processes over UDP: the hand is in one of them, what it touches in the other. Over a network the "
-            "traditional way sends the hand's place there and the force back. With a local model, which the far side fills "
+            "direct method sends the device position there and the force back. With a local model, which the teleoperator describes "
             "and corrects, the hand is answered at once. Errors are against direct touch with the same hand."
         ),
         html.table(gain.HEAD, gain.rows(summary)),
-        *_pictures(folder, "static_forces.png", "The thesis path over a ground and a sphere. The local model is exact; the traditional force is late."),
+        *_pictures(
+            folder,
+            "static_forces.png",
+            "The thesis path over a ground and a sphere. The local model is exact; the force of direct teleoperation is late.",
+        ),
         *_pictures(folder, "dynamic_forces.png", "Pushing a box whose model is 20 % too heavy and too slippery, corrected all the time."),
     )
 
@@ -154,7 +158,7 @@ def _scenario5(summary: targets.Summary, folder: Path) -> str:
     return html.section(
         "Scenario 5: a camera makes the model, and a robot follows the hand",
         html.paragraph(
-            "Two Godot processes over UDP. At the far side a depth camera looks at a place that nobody has described: what it "
+            "Two Godot processes over UDP. On the teleoperator a depth camera looks at an undescribed place. What it "
             "finds is the operator's model, and the robot goes where the hand is. In the dynamic scene the cube is pushed back and forth."
         ),
         html.table(("", "Static", "Dynamic"), rows),
@@ -166,7 +170,7 @@ def _scenario5(summary: targets.Summary, folder: Path) -> str:
 
 def _case(folder: Path, case: str) -> list[str]:
     return [
-        *_pictures(folder, f"{case}_scene.png", "Where the touch is firmest. Blue: the fingertip, on the surface; red: the hand, inside; yellow: the path of the hand."),
+        *_pictures(folder, f"{case}_scene.png", "The largest force. Blue: the proxy, on the surface; red: the device position, inside; yellow: its path."),
         *_pictures(folder, f"{case}_force.png", "The force on the hand during one turn of the path."),
         *_pictures(folder, f"{case}_object.png", "How the hand moves the box."),
     ]

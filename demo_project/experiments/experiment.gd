@@ -236,7 +236,7 @@ func _run_scene(scene: Node) -> int:
 	if not recorder.is_recording():
 		return _fail("nothing can be recorded in '%s'" % _options.output)
 	if _is_networked(link) and not await _meet(link, device):
-		return _fail("the far side was not met: %s" % link.get_state_text())
+		return _fail("the other side was not met: %s" % link.get_state_text())
 	await _play(world, link, stepped)
 	_has_ticked = world.get_ticks() > 0
 	# Before the recorder stops: writing its files takes a while, in which the loop goes on.

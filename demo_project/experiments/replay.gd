@@ -129,7 +129,7 @@ static func _in_words(report: Dictionary) -> String:
 	if report.ticks == 0:
 		words += "there is nothing to compare"
 	elif report.same:
-		words += "the same to the bit, %s" % report.outcome
+		words += "bit-exact, %s" % report.outcome
 	else:
 		words += "from tick %d on not the same" % report.first_different
 	if report.rows == "different":

@@ -8,7 +8,7 @@ const SCENES := {
 	"static_testbed":
 	[
 		"A sphere",
-		"Follow the yellow path: the fingertip slides over the ground and the sphere, and never enters them."
+		"Follow the yellow path: the proxy slides over the ground and the sphere, and never penetrates them."
 	],
 	"textures":
 	[
@@ -16,11 +16,9 @@ const SCENES := {
 		"Stroke the slabs: rubber clings, ice glides, sandpaper is rough, steel rings, sponge gives and hardens."
 	],
 	"magnet":
-	[
-		"Magnets",
-		"Touch the blocks and lift off: the orange ones hold the fingertip back, the right one harder."
-	],
-	"guide": ["A guide", "Nothing is there but the yellow line: come near it, and it leads the hand along."],
+	["Magnets", "Touch the blocks and lift off: the orange ones attract the finger, the right one harder."],
+	"guide":
+	["A virtual fixture", "There is no surface, only the yellow line: come near it, and it guides the hand."],
 	"force_effect":
 	[
 		"Your own force",
@@ -36,12 +34,12 @@ const SCENES := {
 	"field":
 	[
 		"Volumes",
-		"A maze and a lump out of samples, as a scanner has them: go in and feel its walls from within."
+		"A maze and a lump made of samples, as a scanner has them: enter and touch the walls from inside."
 	],
 	"soft":
 	[
-		"Things that give",
-		"Press the sponge, the ball and the cloth: each yields, pushes back and takes its shape again."
+		"Soft bodies",
+		"Press the sponge, the ball and the cloth: each deforms, pushes back and recovers its shape."
 	],
 	"deforming_mesh":
 	["A skin that moves", "Lay a finger on the skin: its wave lifts it and lets it down again."],
@@ -73,20 +71,20 @@ const SCENES := {
 	"delay_lab":
 	[
 		"Far away",
-		"Touch the box through a network: set its delay, and change between the ways to do without it."
+		"Touch the box over a network: set its delay, and switch between direct and model-mediated."
 	],
 	"remote_tool":
 	[
 		"A tool far away",
-		"The peg jams at once, in the hand's own model; the one far away follows, a tenth of a second later."
+		"The peg jams at once in the local model; the teleoperator's peg follows a tenth of a second later."
 	],
 	"wrong_model":
 	[
 		"A wrong model",
-		"The hand's own box is too heavy and too smooth. Push: how it is put right is not felt."
+		"The mass and friction of the local model are wrong. Push it: its correction is not felt."
 	],
 	"two_operators":
-	["Two operators", "Somebody else pushes the same box from elsewhere; the pale ball is that finger."],
+	["Two operators", "Another operator pushes the same box; the pale sphere is that operator's proxy."],
 	"teleoperated_robot":
 	["A robot", "A robot's tip goes where the hand goes. The table it runs into is felt, a moment later."],
 	"robot_tool":
@@ -100,7 +98,7 @@ const SCENES := {
 		"What a depth camera finds on a table becomes bodies that are felt, and a robot touches the real ones."
 	],
 	"point_cloud":
-	["Points", "Nobody knows what stands there. Its points, as the camera sees them, are the surface."],
+	["Points", "The objects are unknown. Their points, as the camera sees them, are the surface."],
 	"device_check":
 	["Check a device", "Is it found, does it know where it is, does it push back the right way?"],
 }

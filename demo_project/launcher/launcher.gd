@@ -224,4 +224,4 @@ func _play_again() -> void:
 	await get_tree().process_frame
 	await get_tree().process_frame
 	var same := Replay.run(["--replay=" + bundle]) == Replay.SAME
-	_said.text = "The same came of it, to the bit" if same else "It was not the same: the output says where"
+	_said.text = "The results are bit-exact" if same else "It was not the same: the output says where"

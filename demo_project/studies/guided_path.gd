@@ -120,7 +120,7 @@ func columns() -> Dictionary:
 	return {
 		"answer": "number of the condition, from 0 on",
 		"guide_stiffness_n_per_m": "stiffness of the guide, in newtons per meter",
-		"deviation_rms_mm": "distance of the fingertip from the line, root mean square, in millimeters",
+		"deviation_rms_mm": "distance of the proxy from the line, root mean square, in millimeters",
 		"deviation_max_mm": "the largest distance, in millimeters",
 		"took_s": "from one end of the line to the other, in seconds of the world's time",
 	}

@@ -20,7 +20,7 @@ std::string problem_with_circle(const CircleWave& path) {
         return "the time for one turn has to be above zero";
     }
     if (!is_finite(path.centre) || !std::isfinite(path.radius) || !std::isfinite(path.amplitude)) {
-        return "centre, radius and amplitude have to be finite numbers";
+        return "center, radius and amplitude have to be finite numbers";
     }
     if (path.radius < 0.0 || path.amplitude < 0.0) {
         return "radius and amplitude may not be negative";

@@ -114,7 +114,7 @@ void SpaceMouse::take(const Message& message) {
         problem_ =
             message[status] < 0 ? "no SpaceMouse is plugged in: plug it in, or choose another driver" : "";
     } else if (type < 0 || type > last_event) {
-        leave("spacenavd says what nobody understands: install version 1.0 or later");
+        leave("spacenavd sends an unknown message: install version 1.0 or later");
     }
 }
 

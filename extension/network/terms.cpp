@@ -61,17 +61,17 @@ std::string of_hands(const Disagreement& disagreement, const Terms& own, const T
         const HandTerms& here = own.hands[i];
         const HandTerms& there = peer.hands[i];
         const std::string hand =
-            i < first_tool ? "fingertip " + std::to_string(i) : "tool " + std::to_string(i - first_tool);
+            i < first_tool ? "proxy " + std::to_string(i) : "tool " + std::to_string(i - first_tool);
         text += text.empty() ? "" : "; ";
         if (here.kind != there.kind) {
             const bool lacks_here = side == Side::teleoperator_side;
-            text += std::string(lacks_here ? "this side has no " : "the far side has no ") + hand +
+            text += std::string(lacks_here ? "this side has no " : "the other side has no ") + hand +
                     ": add it there, or remove the operator's";
         } else if (here.kind == HandTerms::Kind::fingertip) {
             text += hand + " has a radius of " + millimeters(here.radius) + " here and " +
-                    millimeters(there.radius) + " at the far side: set both alike";
+                    millimeters(there.radius) + " on the other side: set both alike";
         } else {
-            text += hand + " has another mesh here than at the far side: give both the same";
+            text += hand + " has another mesh here than on the other side: give both the same";
         }
     }
     return text;
@@ -105,15 +105,15 @@ Disagreement compare(const Terms& of_operator, const Terms& of_teleoperator) {
 
 std::string explain(const Disagreement& disagreement, const Terms& own, const Terms& peer, Side side) {
     if (disagreement.has(Term::scenario)) {
-        return "the far side is set to scenario " + std::to_string(peer.scenario) + " and this side to " +
+        return "the other side is set to scenario " + std::to_string(peer.scenario) + " and this side to " +
                std::to_string(own.scenario) + ": set both alike";
     }
     if (disagreement.has(Term::passivity)) {
-        return std::string("the far side has the passivity '") + passivity_name(peer.passivity) +
+        return std::string("the other side has the passivity '") + passivity_name(peer.passivity) +
                "' and this side '" + passivity_name(own.passivity) + "': set both alike";
     }
     if (disagreement.has(Term::impedance)) {
-        return "the wave impedance is " + number(peer.impedance) + " N·s/m at the far side and " +
+        return "the wave impedance is " + number(peer.impedance) + " N·s/m on the other side and " +
                number(own.impedance) + " here: set 'passivity_wave_impedance' of both TeleopTunings alike";
     }
     if (disagreement.has(Term::bodies)) {

@@ -40,14 +40,15 @@ std::string bind_error(const UdpAddress& local, SocketError error) {
 
 std::string own_address_error(const UdpAddress& remote) {
     return "\"" + remote.host + "\" with port " + std::to_string(remote.port) +
-           " is this side's own address: set the address and the port of the far side, and another port for "
+           " is this side's own address: set the address and the port of the other side, and another port "
+           "for "
            "this side where both run on one machine";
 }
 
 std::string family_error(const UdpAddress& local, const UdpAddress& remote, IpFamily of_remote) {
     const bool remote_is_six = of_remote == IpFamily::six;
     return "the local address \"" + local.host + "\" belongs to " + (remote_is_six ? "IPv4" : "IPv6") +
-           " and the far side's \"" + remote.host + "\" to " + (remote_is_six ? "IPv6" : "IPv4") +
+           " and the other side's \"" + remote.host + "\" to " + (remote_is_six ? "IPv6" : "IPv4") +
            ": leave the local address empty, or give both of one kind";
 }
 
@@ -109,7 +110,7 @@ SocketHandle open_socket(const UdpSocket& wanted, const UdpAddress& local, const
 UdpSockets open_udp_sockets(const UdpAddress& local, const UdpAddress& remote, bool loopback_only) {
     UdpSockets opened;
     if (remote.host.empty() || remote.port == 0) {
-        opened.error = "the far side has no address: set its address and its port";
+        opened.error = "the other side has no address: set its address and its port";
         return opened;
     }
     std::vector<IpAddress> remotes = resolve(remote, IpFamily::any, opened.error);

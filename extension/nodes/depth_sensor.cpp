@@ -85,7 +85,8 @@ String DepthSensor::problem_of_touch() const {
     const std::vector<MMTLink*> links = MMTLink::of(*world);
     const bool is_far = !links.empty() && !links.front()->is_operator();
     if (is_far && looks_.objects == SeenAs::held_bodies && links.front()->has_robots()) {
-        return "nothing holds bodies at a far side with a robot, where nothing is simulated: set 'bodies' to "
+        return "nothing holds bodies at a teleoperator with a robot, where nothing is simulated: set "
+               "'bodies' to "
                "free";
     }
     return is_far && looks_.touch_cloud

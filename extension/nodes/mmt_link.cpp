@@ -164,7 +164,7 @@ bool MMTLink::take_old(const char* place, const Ref<Values>& own, const String& 
     own->set(now, value);
     if (!std::exchange(is_old_, true)) {
         UtilityFunctions::push_warning(name_of(*this), ": ", name, " is ", place, ".", now,
-                                       " now, and other properties have moved likewise. They were taken "
+                                       " now, and so have other properties. They were taken "
                                        "over: save the scene to keep them there.");
     }
     return true;

@@ -77,7 +77,7 @@ PackedStringArray ProxyPointer::_get_configuration_warnings() const {
         }
     }
     if (guide_.is_valid()) {
-        warn(warnings, "This guide leads nobody", guide_->get_problem());
+        warn(warnings, "This guide has no effect", guide_->get_problem());
     }
     if (radius_was_refused_) {
         warnings.push_back("'" + String(get_name()) +

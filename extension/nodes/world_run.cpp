@@ -26,7 +26,7 @@ constexpr const char* too_many_recordings =
     "eight recorders and feedbacks listen to this world already: take one of them away";
 
 constexpr const char* only_here =
-    "the far side does not have it, so that hands pass through it: add it there, or take it away here";
+    "the other side does not have it, so that hands pass through it: add it there, or take it away here";
 
 // Marks a time in which the same is not to be begun again.
 class Busy {
@@ -360,7 +360,7 @@ std::vector<std::string> problems_of_errors(const MMTLink& link, const std::vect
     for (const auto& [name, error] : link.model_errors()) {
         if (!objects.empty() && std::ranges::find(objects, name, &ModelObject::name) == objects.end()) {
             problems.push_back(from_godot(name_of(link)) + ": model_errors names '" + name +
-                               "', which the far side does not have: it has " + known);
+                               "', which the other side does not have: it has " + known);
         }
     }
     return problems;

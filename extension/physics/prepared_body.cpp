@@ -57,7 +57,7 @@ std::string wrong_in(const BodyDescription& d) {
         !(d.mass >= limits::lightest * (1.0 - rounding) && d.mass <= limits::heaviest * (1.0 + rounding)))
         return "the mass is " + in_short(d.mass) + " kg; make it between 0.000001 and 10^12 kg";
     if (d.center_of_mass && !(glm::length(*d.center_of_mass) <= limits::longest_arm))
-        return "the centre of mass is not a point within 100 km of the body";
+        return "the center of mass is not a point within 100 km of the body";
     if (d.inertia && !(is_inertia(d.inertia->x) && is_inertia(d.inertia->y) && is_inertia(d.inertia->z)))
         return "the inertia must be between 10^-18 and 10^18 kg m^2 about all three axes; leave it at zero "
                "to "

@@ -32,7 +32,7 @@ PreparedDiscovery prepared(SessionHandle body, const std::string& name, const Bo
 std::string EnvironmentTeller::tell(SessionHandle body, const std::string& name,
                                     const BodyAddition& addition) {
     if (!prepared(body, name, addition, frame_)) {
-        return "\"" + name + "\" cannot be described to the far side: it has more than " +
+        return "\"" + name + "\" cannot be described to the other side: it has more than " +
                std::to_string(max_description_bytes >> 20) + " MiB of shapes, or a value out of range";
     }
     Told& told = told_[body];

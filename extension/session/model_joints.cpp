@@ -87,7 +87,7 @@ std::vector<std::string> ModelJoints::problems() const {
     std::vector<std::string> all;
     for (const Joint& joint : joints_) {
         if (!joint.problem.empty()) {
-            all.push_back("a joint of the far side: " + joint.problem);
+            all.push_back("a joint of the other side: " + joint.problem);
         }
     }
     return all;

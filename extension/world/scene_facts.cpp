@@ -46,7 +46,7 @@ std::string problem_of_fingertip(double radius, std::uint32_t mask, const SceneF
     }
     const bool has_sizes = facts.largest > 0.0;
     if (has_sizes && (radius > too_large * facts.largest || radius < too_small * facts.smallest)) {
-        return "the fingertip's radius of " + meters(radius) + " does not fit bodies that reach from " +
+        return "the proxy's radius of " + meters(radius) + " does not fit bodies that reach from " +
                meters(facts.smallest) + " to " + meters(facts.largest) +
                ": set 'radius' to about a tenth of what is touched";
     }

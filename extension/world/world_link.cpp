@@ -39,7 +39,7 @@ UdpSettings with_usual_ports(UdpSettings udp, bool is_operator) {
 
 std::string problem_of_addresses(const UdpSettings& udp) {
     if (udp.remote_address.empty()) {
-        return "the far side has no address: set 'remote_address'";
+        return "the other side has no address: set 'remote_address'";
     }
     const bool loops =
         udp.remote_address == "127.0.0.1" || udp.remote_address == "localhost" || udp.remote_address == "::1";
@@ -319,7 +319,7 @@ std::vector<std::string> WorldLink::problems() const {
         std::ranges::move(builder_->joints().problems(), std::back_inserter(all));
         for (const ModelObject& object : builder_->objects()) {
             if (!object.problem.empty()) {
-                all.push_back("\"" + object.name + "\" of the far side: " + object.problem);
+                all.push_back("\"" + object.name + "\" of the other side: " + object.problem);
             }
         }
     }
@@ -337,12 +337,13 @@ void WorldLink::note_refusals(Nanoseconds now) {
         unmet ? figures_.udp.secure.wrong_key : 0, unmet ? figures_.udp.secure.not_sealed : 0,
         link.refused.of(Refusal::sealed), link.refused.of(Refusal::wrong_version), figures_.udp.refused};
     constexpr const char* words[] = {
-        "the far side has another key: give both sides the same",
-        "the far side has no key: give both sides the same, or none",
-        "the far side has a key and this side has none: give both sides the same",
-        "the far side speaks another version of the protocol: install the same version of Tactus on both "
+        "the other side has another key: give both sides the same",
+        "the other side has no key: give both sides the same, or none",
+        "the other side has a key and this side has none: give both sides the same",
+        "the other side speaks another version of the protocol: install the same version of Tactus on both "
         "sides",
-        "the far side expects somebody else at that port: set its 'remote_address' and 'remote_port' to this "
+        "the other side expects another peer at that port: set its 'remote_address' and 'remote_port' to "
+        "this "
         "side's, or give this operator an MMTLink of its own there",
     };
     for (std::size_t i = 0; i < counts.size(); ++i) {
@@ -379,21 +380,21 @@ WorldLink::Standing WorldLink::standing_of_peer() const {
     const std::string there = plan_.wire != nullptr ? plan_.partner : ports(plan_.network);
     switch (link.peer) {
         case PeerState::silent:
-            return {
-                LinkState::waiting,
-                (figures_.udp.state == UdpState::unreachable ? "nobody listens yet at " : "waiting for ") +
-                    there};
+            return {LinkState::waiting,
+                    (figures_.udp.state == UdpState::unreachable ? "no program listens yet at "
+                                                                 : "waiting for ") +
+                        there};
         case PeerState::one_way:
             return {LinkState::one_way,
-                    "the far side is heard and does not hear this one yet; if that lasts, its "
+                    "the other side is heard and does not hear this one yet; if that lasts, its "
                     "'remote_address' or "
                     "'remote_port' is not this side's"};
         case PeerState::wrong_side:
-            return {LinkState::refused, "the far side plays the same side: set 'side' of one of the two"};
+            return {LinkState::refused, "the other side plays the same side: set 'side' of one of the two"};
         case PeerState::vanished:
             return {LinkState::lost, "nothing has been heard for a second from " + there};
         case PeerState::left:
-            return {LinkState::left, "the far side has ended"};
+            return {LinkState::left, "the other side has ended"};
         case PeerState::connected:
             break;
     }

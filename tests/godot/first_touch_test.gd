@@ -155,7 +155,7 @@ func test_a_fingertip_far_too_large_or_small() -> void:
 		var world := _stepped()
 		add_floor(world)
 		add_hand(world, _down(), radius)
-		await _say(world, "the fingertip's radius")
+		await _say(world, "the proxy's radius")
 
 
 func test_a_world_with_nothing_in_it() -> void:
@@ -241,7 +241,7 @@ func test_warnings_in_the_editor_name_what_the_scene_lacks() -> void:
 	tip.collision_mask = 1
 	for radius: float in [30.0, 1e-6]:
 		tip.radius = radius
-		check(_warnings(tip).contains("the fingertip's radius"), "size: " + _warnings(tip))
+		check(_warnings(tip).contains("the proxy's radius"), "size: " + _warnings(tip))
 	tip.radius = 0.01
 	device.path = path(Vector3(0, -0.1, 0), Vector3(0, 0.1, 0))
 	check(_warnings(tip).contains("its hand begins inside 'Floor'"), "inside: " + _warnings(tip))

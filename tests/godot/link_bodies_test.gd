@@ -61,5 +61,5 @@ func test_a_body_that_only_the_operator_has_is_named() -> void:
 	await frames(1)
 	_advance(0.5)
 	var problems := "\n".join(_operator.get_problems())
-	check(problems.contains("Alone") and problems.contains("far side does not have"), problems)
+	check(problems.contains("Alone") and problems.contains("other side does not have"), problems)
 	check(not problems.contains("Floor"), problems)

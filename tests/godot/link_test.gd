@@ -42,7 +42,7 @@ func test_the_model_is_filled_from_the_far_side_and_touched_at_once() -> void:
 	# The proxy's sphere rests on the floor, its centre a radius above: the hand is 2 cm from it.
 	check_near(_felt(_operator), Vector3(0, 10.0 * 0.8, 0), 1e-3, "force, limited to 8 N, without any delay")
 	_advance(0.2)
-	check_near((_far.get_node("Proxy") as ProxyPointer).get_force().y, 10.0, 1e-3, "force at the far side")
+	check_near((_far.get_node("Proxy") as ProxyPointer).get_force().y, 10.0, 1e-3, "force at the other side")
 
 
 func test_a_body_of_the_scene_shows_the_far_one_of_the_same_name() -> void:
@@ -70,11 +70,11 @@ func test_traditional_touch_is_felt_one_delay_later() -> void:
 	_add_hands()
 	_advance(0.5 + 0.1)
 	var proxy: ProxyPointer = _operator.get_node("Proxy")
-	check_near(_felt(_operator), Vector3.ZERO, 1e-9, "force before the far side has answered")
-	check(not proxy.is_touching(), "it touches before the far side has answered")
+	check_near(_felt(_operator), Vector3.ZERO, 1e-9, "force before the other side has answered")
+	check(not proxy.is_touching(), "it touches before the other side has answered")
 	_advance(0.15)
 	check_near(_felt(_operator).y, 8.0, 1e-3, "force when it has")
-	check(proxy.is_touching(), "it does not touch when the far side has answered")
+	check(proxy.is_touching(), "it does not touch when the other side has answered")
 	check_near(proxy.get_contacts()[0].point, Vector3.ZERO, 1e-3, "point of contact")
 	check_near(proxy.get_contacts()[0].normal, Vector3.UP, 1e-6, "normal")
 	check_near(_here.get_statistics().round_trip_s, 0.1, 0.003, "round trip (s)")
@@ -250,7 +250,7 @@ func test_several_operators_touch_one_environment() -> void:
 	_seen_balls(_here)[0].free()
 	_here.show_ghosts = false
 	check_equal(_seen_balls(_here).size(), 0, "ghosts that are seen when none are asked for")
-	check_equal(_there.get_ghosts().size(), 0, "ghosts at the far side")
+	check_equal(_there.get_ghosts().size(), 0, "ghosts at the other side")
 
 
 func _seen_balls(link: MMTLink) -> Array[Node]:

@@ -29,8 +29,8 @@ func test_a_tool_touches_the_model_at_once_and_the_far_one_follows() -> void:
 	check_near(_tool(_operator).get_torque().z, -0.05, 5e-3, "torque")
 	check_near(_tool(_operator).global_position.y, 0.0095, 1e-3, "place")
 	_advance(0.2)
-	check_near(_tool(_far).get_force(), _tool(_operator).get_force(), 1e-3, "force at the far side")
-	check_near(_tool(_far).get_torque().z, -0.05, 5e-3, "torque at the far side")
+	check_near(_tool(_far).get_force(), _tool(_operator).get_force(), 1e-3, "force at the other side")
+	check_near(_tool(_far).get_torque().z, -0.05, 5e-3, "torque at the other side")
 	check_near(_tool(_far).global_position, _tool(_operator).global_position, 1e-6, "place of the far tool")
 
 
@@ -40,11 +40,11 @@ func test_traditional_touch_brings_back_the_force_and_torque_of_a_tool() -> void
 	_add_tools()
 	_tool(_operator).grasp_rotation = Vector3(0, 0, 0.05)
 	_advance(0.62)
-	check_near(_tool(_operator).get_force(), Vector3.ZERO, 1e-9, "force before the far side has answered")
+	check_near(_tool(_operator).get_force(), Vector3.ZERO, 1e-9, "force before the other side has answered")
 	_advance(0.2)
 	check_near(_tool(_operator).get_force(), _tool(_far).get_force(), 1e-3, "force when it has")
 	check_near(_tool(_operator).get_torque().z, -0.05, 5e-3, "torque when it has")
-	check(_tool(_operator).is_touching(), "it does not touch when the far side has answered")
+	check(_tool(_operator).is_touching(), "it does not touch when the other side has answered")
 	check_near(_tool(_operator).global_position, _tool(_far).global_position, 1e-6, "place")
 
 

@@ -114,7 +114,7 @@ TEST(SampleStream, WhatIsLostIsRepeatedByNeed) {
     for (std::uint64_t sequence = from; sequence <= rig.sequence; ++sequence) {
         lost += rig.heard[0].contains(sequence) ? 0 : 1;
     }
-    EXPECT_LE(lost, 40u) << "one in five hundred, of which a tenth is left to the far side's guess";
+    EXPECT_LE(lost, 40u) << "one in five hundred, of which a tenth is left to the other side's guess";
     EXPECT_GE(seconds_with_more, 15) << "but for two seconds in which less is tried";
 }
 

@@ -53,7 +53,7 @@ def test_a_bundle_has_what_its_page_says(bundle):
 def test_it_gives_the_same_bits_again(bundle, capsys):
     assert replay.main([str(bundle)]) == 0
     said = capsys.readouterr().out
-    assert re.search(r"hand: 2\d{3} ticks, the same to the bit, [0-9a-f]{8,16}$", said, re.M), said
+    assert re.search(r"hand: 2\d{3} ticks, bit-exact, [0-9a-f]{8,16}$", said, re.M), said
     assert replay.main([str(bundle)]) == 0
     assert capsys.readouterr().out == said
 
@@ -74,7 +74,7 @@ def test_so_does_a_place_that_has_nothing_of_this_one(bundle, exported, tmp_path
     command = [place / exported[0].name, "--headless", "--", f"--replay={taken}"]
     own = {"HOME": str(tmp_path), "PATH": "/usr/bin:/bin", "GLIBC_TUNABLES": "glibc.cpu.hwcaps=-FMA,-AVX2,-FMA4"}
     done = subprocess.run(command, cwd="/", env=own, timeout=180, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-    assert done.returncode == 0 and "the same to the bit" in done.stdout, done.stdout
+    assert done.returncode == 0 and "bit-exact" in done.stdout, done.stdout
 
 
 def launched(program: list, folder: Path, *options: str) -> None:
@@ -92,7 +92,7 @@ def test_the_exported_launcher_plays_scenario_4_with_itself_and_the_bundle_gives
     statistics = json.loads((tmp_path / "operator_statistics.json").read_text())
     assert statistics["link"]["objects"] > 0
     assert replay.main([str(tmp_path)]) == 0
-    assert len(re.findall("the same to the bit", capsys.readouterr().out)) == 2
+    assert len(re.findall("bit-exact", capsys.readouterr().out)) == 2
     again = play(exported, f"--replay={tmp_path}")
     assert again.returncode == 0, again.stdout
 
@@ -101,7 +101,7 @@ def test_the_launcher_plays_every_world_of_a_scene_with_a_robot(exported, tmp_pa
     launched(exported, tmp_path, "--scenario=3", "--seconds=2")
     again = play(exported, f"--replay={tmp_path}")
     assert again.returncode == 0, again.stdout
-    assert len(re.findall("the same to the bit", again.stdout)) == len(list(tmp_path.glob(f"*{replay.INPUTS}"))) == 2
+    assert len(re.findall("bit-exact", again.stdout)) == len(list(tmp_path.glob(f"*{replay.INPUTS}"))) == 2
 
 
 def test_the_launcher_refuses_what_there_is_not(exported, tmp_path):
@@ -135,7 +135,7 @@ def test_a_damaged_one_is_said_and_what_is_whole_is_played(bundle, tmp_path, cap
     assert replay.main([str(tmp_path)]) == 2
     said = capsys.readouterr().out
     for line in ("short", "flipped"):
-        found = re.search(rf"{line}: (\d+) ticks, the same to the bit, .*not all of it could be played: ", said)
+        found = re.search(rf"{line}: (\d+) ticks, bit-exact, .*not all of it could be played: ", said)
         assert found and 500 < int(found[1]) < 1800, said
 
 

@@ -81,7 +81,7 @@ def test_what_a_local_model_gives_is_told_where_it_was_measured(tmp_path):
     figures |= {"static.mmt.force_error_mean_N": 0.0, "dynamic.mmt.force_error_mean_N": 0.05}
     (tmp_path / "scenario4/summary.json").write_text(json.dumps(figures))
     words = page(tmp_path).words
-    assert "all of it" in words
+    assert "no error left" in words
     assert "10.0 × less" in words
 
 

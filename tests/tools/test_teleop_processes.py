@@ -71,7 +71,7 @@ def test_another_way_of_the_hand_is_no_comparison():
 
 def test_gains_in_words():
     assert gain.gained(1.0, 0.1) == "10.0 × less"
-    assert gain.gained(1.0, 0.0) == "all of it"
+    assert gain.gained(1.0, 0.0) == "no error left"
     assert gain.gained(1.0, 5.0) == "5.0 × more"
     assert gain.gained(1.0, 1.0) == "nothing"
     assert gain.gained(0.0, 0.0) == "–"

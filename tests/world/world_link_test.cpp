@@ -214,7 +214,7 @@ TEST(WorldLink, AnotherScenarioIsRefusedInWords) {
     frames(here, there, 60);
     EXPECT_EQ(here.link.report().state, LinkState::refused);
     EXPECT_EQ(here.link.report().text,
-              "the far side is set to scenario 2 and this side to 4: set both alike");
+              "the other side is set to scenario 2 and this side to 4: set both alike");
 }
 
 TEST(WorldLink, ASideThatLeavesSaysSo) {
@@ -225,7 +225,7 @@ TEST(WorldLink, ASideThatLeavesSaysSo) {
     sides.here.frame();
     sides.here.frame();
     EXPECT_EQ(sides.here.link.report().state, LinkState::left);
-    EXPECT_EQ(sides.here.link.report().text, "the far side has ended");
+    EXPECT_EQ(sides.here.link.report().text, "the other side has ended");
 }
 
 TEST(WorldLink, ASideThatFallsSilentIsLost) {
@@ -297,7 +297,7 @@ TEST(WorldLink, OneWhoHasSetItMayGo) {
 TEST(ProblemOfAddresses, SaysWhatIsMissingOrTheSame) {
     UdpSettings udp;
     udp.local_port = udp.remote_port = 47001;
-    EXPECT_EQ(problem_of_addresses(udp), "the far side has no address: set 'remote_address'");
+    EXPECT_EQ(problem_of_addresses(udp), "the other side has no address: set 'remote_address'");
     for (const char* loop : {"127.0.0.1", "localhost", "::1"}) {
         udp.remote_address = loop;
         EXPECT_NE(problem_of_addresses(udp).find("it would talk to itself"), std::string::npos) << loop;

@@ -2,14 +2,14 @@
 
 from collections.abc import Sequence
 
-HEAD = ("What the hand feels", "Traditional (2)", "Model-mediated (4)", "Gained")
-SCENES = {"static": "What stands still", "dynamic": "A box that is pushed, its model wrong"}
+HEAD = ("Displayed force", "Direct (2)", "Model-mediated (4)", "Gained")
+SCENES = {"static": "Static bodies", "dynamic": "A pushed box, local model wrong"}
 
 _ROWS = (
     ("force_error_mean_N", "force error, mean", "{:.3f} N", 1.0),
     ("force_error_p95_N", "force error, 95 %", "{:.3f} N", 1.0),
-    ("contact_delay_ms", "a touch is felt after", "{:.0f} ms", 1.0),
-    ("phantom_force_share", "feels what is not there", "{:.1f} % of the time", 100.0),
+    ("contact_delay_ms", "contact delay", "{:.0f} ms", 1.0),
+    ("phantom_force_share", "phantom contact", "{:.1f} % of the time", 100.0),
 )
 NEVER = "never"  # of what has not happened, such as a touch that was felt
 # Less than this is none (units as shown).
@@ -31,7 +31,7 @@ def gained(before: float, after: float) -> str:
     if before < _NONE:
         return "–" if after < _NONE else "worse"
     if after < _NONE:
-        return "all of it"
+        return "no error left"
     return f"{before / after:.1f} × less" if after < before else f"{after / before:.1f} × more" if after > before else "nothing"
 
 

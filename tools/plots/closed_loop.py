@@ -21,7 +21,7 @@ def draw(folder: Path, scenes: tuple[str, ...], delays: list[str], summary: dict
             _draw_depth(axes[row][column], folder, scene, shown, family)
         axes[0][column].set_title(f"An arm presses {TITLES[scene]}, {shown} ms away")
         for row, key, label in (
-            (2, "energy_created_J", "energy made in a contact (J)"),
+            (2, "energy_created_J", "energy generated in a contact (J)"),
             (3, "settled_force_error_N", "force error while\nthe hand holds (N)"),
         ):
             one = axes[row][column]

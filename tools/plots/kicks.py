@@ -22,7 +22,7 @@ def draw(folder: Path, kinds: list[str], summary: dict[str, object], at: float) 
         let_go = bool(summary[f"{kind}.let_go"])
         quiet = jnd <= 1.0 or let_go
         text = "0 JND" if jnd < 0.005 else f"{jnd:.2g} JND" if jnd < 99.5 else f"{jnd:.0f} JND"
-        title = f"{kind.replace('_', ' ')}: {text}" + (", let go" if let_go else "")
+        title = f"{kind.replace('_', ' ')}: {text}" + (", released" if let_go else "")
         one.set_title(title, fontsize=8.5, color=style.INK if quiet else style.WARNING)
         one.set(xlim=(0.5, 4.4), ylim=(0, None))
     for one in axes.flat[len(kinds) :]:

@@ -36,7 +36,7 @@ def _draw_correction(folder: Path, path: str, until: float) -> None:
     legend(error)
     for one, colour in ((wrong, style.REFERENCE), (rows, style.MEASURED)):
         excess.plot(one["time"], one["felt_excess_100ms_jnd"], color=colour, linewidth=1.2)
-    excess.set(ylabel="felt excess\n(JND in 100 ms)", xlabel="time (s)", ylim=(0, None))
+    excess.set(ylabel="excess force\n(JND in 100 ms)", xlabel="time (s)", ylim=(0, None))
     style.save(drawn, folder / f"{path}_correction.png")
 
 
@@ -58,7 +58,7 @@ def draw_trade(summary: dict[str, object], name: str, shares: tuple[str, ...], w
         )  # fmt: skip
     one.axhline(1.0, color=style.INK, linewidth=0.8, linestyle=":")
     one.set(xlabel="seconds from being told until right", xlim=(0, None), ylim=(0, None))
-    one.set_ylabel("felt excess over 100 ms, largest (JND)")
-    one.set_title("A wrong ground is put right under a hand that presses and slides", pad=10)
+    one.set_ylabel("excess force over 100 ms, largest (JND)")
+    one.set_title("A wrong ground is corrected under a hand that presses and slides", pad=10)
     one.legend(fontsize=9)
     style.save(drawn, path)

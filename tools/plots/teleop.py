@@ -102,7 +102,7 @@ def draw_unsynchronised(folder: Path, variant: str, delay: float) -> None:
     error.set(ylabel="force error (N)")
     error.set_yscale("symlog", linthresh=1e-2)
     error.set_ylim(0, None)
-    error.set_title(f"A right model whose far side ticks at other times, {delay:.0f} ms away")
+    error.set_title(f"A right model whose teleoperator ticks at other times, {delay:.0f} ms away")
     place.set(ylabel="box off by (mm)", xlabel="time (s)", ylim=(1e-4, None))
     drawn.legend(*place.get_legend_handles_labels(), loc="outside lower center", ncols=5, fontsize=8.5)
     style.save(drawn, folder / "unsynchronised.png")

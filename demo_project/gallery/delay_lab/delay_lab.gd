@@ -4,7 +4,7 @@ extends Control
 
 const SCENARIOS := {
 	"1  Direct, no network": MMTLink.SCENARIO_SINGLE,
-	"2  Traditional": MMTLink.SCENARIO_TRADITIONAL,
+	"2  Direct": MMTLink.SCENARIO_TRADITIONAL,
 	"4  Model-mediated": MMTLink.SCENARIO_MMT,
 }
 const CORRECTIONS := {

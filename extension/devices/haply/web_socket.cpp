@@ -105,7 +105,7 @@ std::string WebSocket::open(std::uint16_t port) {
 // do.
 std::string WebSocket::shake_hands(std::uint16_t port) {
     if (const std::string why = socket_.connect_here(port); !why.empty()) {
-        return "nobody answers at port " + std::to_string(port) + " of this machine: " + why;
+        return "no program answers at port " + std::to_string(port) + " of this machine: " + why;
     }
     const std::string request =
         "GET / HTTP/1.1\r\nHost: localhost:" + std::to_string(port) +

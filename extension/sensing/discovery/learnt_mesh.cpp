@@ -169,7 +169,7 @@ std::string check_library_mesh(const LibraryMesh& mesh, const LearningSettings& 
     }
     const double side = (2.0 * ball.radius + 2.0 * settings.margin) / settings.cell;
     if (side * side * side > max_cells) {
-        return "mesh \"" + mesh.name + "\" is too large to be recognised: is it in meters?";
+        return "mesh \"" + mesh.name + "\" is too large to be recognized: is it in meters?";
     }
     return "";
 }

@@ -70,7 +70,7 @@ fs::path find_openni() {
 
 Stage::Stage(const fs::path& library, const fs::path& own_driver) : folder_(name()) {
     if (!fs::create_directory(folder_)) {
-        throw fs::filesystem_error("somebody else has it", folder_,
+        throw fs::filesystem_error("another program has it", folder_,
                                    std::make_error_code(std::errc::file_exists));
     }
     fs::permissions(folder_, fs::perms::owner_all);
