@@ -1,6 +1,6 @@
 extends "test_case.gd"
-## The check of a machine reports. Not played in a released program: Debian's template 4.6.3 says of any Container with a
-## Button in it that a connection does not exist.
+## The check of a machine reports. Not played in a released program: Debian's template 4.6.3 says of any
+## Container with a Button in it that a connection does not exist.
 
 
 func test_the_machine_is_checked() -> void:

@@ -27,7 +27,7 @@ NOT_REWRITTEN = {
     "docs/proxy_steps.md": (19, 0.0),
     "docs/sensing.md": (10, 20.9),
     "docs/soft.md": (14, 0.0),
-    "docs/teleoperation.md": (37, 20.8),
+    "docs/teleoperation.md": (42, 20.8),
     "docs/tolerances.md": (20, 0.0),
     "docs/tool.md": (57, 22.1),
     "docs/wire_format.md": (24, 0.0),
