@@ -22,11 +22,7 @@ TEST(UnexplainedSteps, AHandThatHoldsStillFeelsNoKick) {
         pressing += figures.pressed > 1.0 ? 1 : 0;
         EXPECT_LE(figures.near_step, most);
         EXPECT_LE(figures.far_step, 0.51);
-        // The fingertip of an operator's world that begins anew with the hand at a surface feels nothing, and
-        // the far one presses: that is not mended yet.
-        if (one.change != StillChange::operator_restarts || one.tool) {
-            EXPECT_EQ(figures.far_alone, 0.0);
-        }
+        EXPECT_EQ(figures.far_alone, 0.0);
     }
     EXPECT_GT(cases, 40);
     EXPECT_GE(pressing, cases - 4);
