@@ -26,7 +26,7 @@ CONTENTS = {
     ],
     "Reference": ["classes/index", "godot_physics", "glossary", "wire_format", "experiments", "bundles", "bibliography"],
     "Results": [
-        "reproduce", "comparison", "proxy", "teleoperation", "tool", "soft", "physics", "credibility", "devices", "sensing", "discovery",
+        "reproduce", "thesis", "comparison", "proxy", "teleoperation", "tool", "soft", "physics", "credibility", "devices", "sensing", "discovery",
         "stress", "proof",
     ],
     "Internals": ["development", "architecture", "proxy_steps", "tolerances", "notebook/proxy", "roadmap", "changes"],

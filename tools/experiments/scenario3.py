@@ -1,4 +1,4 @@
-"""Scenario 3: the operator's hand moves a robot in a real place, and feels what the robot runs into (thesis 5.4).
+"""Scenario 3: the operator's hand moves a robot in a real place, and feels what the robot runs into (thesis 4.4.1).
 
     ./run experiment scenario3 [--seconds=10]
 

@@ -1,4 +1,4 @@
-"""Scenario 5: a camera makes the operator's model, and a robot follows the hand in a place of its own (thesis 5.6).
+"""Scenario 5: a camera makes the operator's model, and a robot follows the hand in a place of its own (thesis 4.4.1).
 
     ./run experiment scenario5 [--seconds=16]
 
