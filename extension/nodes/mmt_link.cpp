@@ -126,6 +126,11 @@ void MMTLink::side_changed() {
     restart_world();
 }
 
+void MMTLink::history_changed() {
+    changed();
+    restart_world();
+}
+
 void MMTLink::partner_changed() {
     wire_.reset();
     changed();
@@ -186,6 +191,7 @@ LinkPlan MMTLink::plan() {
     plan.teleop.traditional = scenario_ == SCENARIO_TRADITIONAL || scenario_ == SCENARIO_ROBOT;
     plan.teleop.robot = has_robots();
     plan.teleop.correction = correction_;
+    plan.history = history_;
     plan.teleop.control = control_;
     plan.network = network_settings();
     plan.key_file = from_godot(key_file_);

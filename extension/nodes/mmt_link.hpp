@@ -100,6 +100,7 @@ private:
     std::shared_ptr<MemoryLinkPair> wire(MMTLink& partner);
     void scenario_changed();
     void side_changed();
+    void history_changed();
     void partner_changed();
     template <class Values>
     bool take_old(const char* place, const godot::Ref<Values>& own, const godot::String& name,
@@ -115,6 +116,7 @@ private:
     godot::String key_file_;
     ControlScheme control_ = ControlScheme::spring;
     Correction correction_ = Correction::stealthy_direction;
+    double history_ = LinkPlan{}.history;  // (unit: seconds)
     godot::Ref<NetworkConditions> conditions_;
     godot::Ref<TeleopTuning> tuning_;
     bool is_old_ = false;

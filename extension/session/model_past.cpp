@@ -1,5 +1,7 @@
 #include "session/model_past.hpp"
 
+#include <algorithm>
+
 namespace tactus {
 
 void ModelPast::note_hands(SessionLoop& loop, SampleSequence sample, Nanoseconds now) {
@@ -19,7 +21,11 @@ void ModelPast::note_hands(SessionLoop& loop, SampleSequence sample, Nanoseconds
 void ModelPast::note_pushes(SessionLoop& loop, const TruthStore& truths, SampleSequence sample) {
     for (std::size_t place = 0; place < truths.places(); ++place) {
         if (const SessionHandle body = truths.body_at(place); loop.body(body)) {
-            pushes_[place * samples() + sample % samples()] = loop.pushed(body);
+            const Vec3 push = loop.pushed(body);
+            pushes_[place * samples() + sample % samples()] = push;
+            if (push != Vec3(0.0)) {
+                last_push_ = std::max(last_push_, sample);
+            }
         }
     }
 }

@@ -41,6 +41,8 @@ public:
     const BodyMotion* motion(std::uint32_t place, SampleSequence sample) const {
         return place != TruthStore::no_place && sample != no_sample ? history_.at(place, sample) : nullptr;
     }
+    // The newest sample in whose tick a hand pressed any body that has a place; no_sample: none has.
+    SampleSequence last_push() const { return last_push_; }
     // The velocity that hands gave the body after sample `first` up to `last`.
     Vec3 pushed(std::uint32_t place, SampleSequence first, SampleSequence last) const;
 
@@ -55,6 +57,7 @@ private:
     StateHistory history_;
     std::vector<Moment> moments_;
     std::vector<Vec3> pushes_;  // by place and sample
+    SampleSequence last_push_ = no_sample;
 };
 
 }  // namespace tactus

@@ -379,6 +379,7 @@ void OperatorSide::take(const ObjectStates& states, std::uint64_t packet, Sessio
                 forget_place(place);
             }
             statistics_.without_past += place == TruthStore::no_place ? 1 : 0;
+            statistics_.beyond_history += is_beyond_history(sample) ? 1 : 0;
         }
     }
 }
@@ -463,10 +464,10 @@ bool OperatorSide::is_news(SessionLoop& loop, SessionHandle body) const {
     if (!known) {
         return false;
     }
-    if (truth.sample == no_sample && !nothing_is_touched(loop)) {
+    const bool moves = known->motion != Motion::Static;
+    if (truth.sample == no_sample && (!nothing_is_touched(loop) || (moves && !knows_all_pushes(no_sample)))) {
         return false;  // from before the first sample of a hand that has been at work since
     }
-    const bool moves = known->motion != Motion::Static;
     if (settings().derivation == Derivation::none || truth.sample == no_sample || !moves) {
         return poses_differ(truth.motion.pose, loop.motion(body).pose, settings().threshold);
     }
@@ -476,11 +477,23 @@ bool OperatorSide::is_news(SessionLoop& loop, SessionHandle body) const {
     }
     const BodyMotion* const then = past_.motion(place, truth.sample);
     if (!then) {
-        return false;
+        const BodyMotion now = loop.motion(body);
+        return is_beyond_history(truth.sample) && knows_all_pushes(truth.sample) &&
+               differs(derive(Derivation::velocity, derivation_input(truth, now, now)), now,
+                       settings().threshold);
     }
     return settings().correction == Correction::pose
                ? poses_differ(truth.motion.pose, then->pose, settings().threshold)
                : differs(truth.motion, *then, settings().threshold);
+}
+
+bool OperatorSide::is_beyond_history(SampleSequence sample) const {
+    return sample != no_sample && sample_ - sample > past_.samples();
+}
+
+// A velocity of the far side leads to the present only where no hand has pressed anything since.
+bool OperatorSide::knows_all_pushes(SampleSequence sample) const {
+    return past_.last_push() == no_sample || past_.last_push() <= sample;
 }
 
 bool OperatorSide::nothing_is_touched(SessionLoop& loop) const {

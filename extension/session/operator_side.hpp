@@ -30,7 +30,8 @@ namespace tactus {
 struct OperatorRoom {
     std::size_t max_tracked = 64;       // moving bodies that are compared with the past; others are put where
                                         // the far side saw them
-    std::size_t samples = 1024;         // of the past; more delay than this is not corrected
+    std::size_t samples = 1024;         // of the past; states that are older are brought to the present by
+                                        // their velocity, once no hand has pressed anything since
     std::size_t samples_a_memento = 8;  // a replay does up to so many ticks more
     std::size_t memento_bytes = 65536;  // of physics in each (see PhysicsWorld::save)
     std::size_t pointers = 4;           // that can be carried along (stealthy_translate, stealthy_turn)
@@ -165,6 +166,9 @@ private:
     void take(const SampleAcknowledgements& acknowledgements);
     void follow_far_side(SessionLoop& loop);
     bool nothing_is_touched(SessionLoop& loop) const;
+    // The model has not kept what it was after that sample.
+    bool is_beyond_history(SampleSequence sample) const;
+    bool knows_all_pushes(SampleSequence sample) const;
     bool is_news(SessionLoop& loop, SessionHandle body) const;
     bool any_news(SessionLoop& loop) const;
     void find_targets(SessionLoop& loop, Nanoseconds now);

@@ -93,7 +93,8 @@ struct TeleopStatistics {
     std::uint64_t let_go = 0;  // times that a pointer has begun to let go of what was too large to hide
     EnergyFigures energy;
     std::uint64_t without_past = 0;  // states of moving bodies for which there is no room in the model's past
-    SeenGhosts ghosts;               // operator: the hands of others
+    std::uint64_t beyond_history = 0;  // operator: states of moving bodies older than the model's past
+    SeenGhosts ghosts;                 // operator: the hands of others
     double doubt = 0.0;  // operator: of a place that is touched, as the far side sees it, standard
                          // deviation (unit: meters)
     BufferCounts buffer;

@@ -1,6 +1,8 @@
 #include "world/world_link.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <iterator>
 #include <unordered_set>
 
@@ -93,7 +95,10 @@ LinkEnd WorldLink::end_of(const SessionSettings& session, const PointerShare& sh
     const SidePlan::Kind kind = is_operator()     ? SidePlan::Kind::operator_side
                                 : settings_.robot ? SidePlan::Kind::robot
                                                   : SidePlan::Kind::environment;
-    return {{kind, settings_, endpoint, OperatorRoom{}, share}, &route_, port_};
+    OperatorRoom room;
+    room.samples =
+        static_cast<std::size_t>(std::max(1.0, std::ceil(plan_.history / to_seconds(session.period))));
+    return {{kind, settings_, endpoint, room, share}, &route_, port_};
 }
 
 // --- the way
@@ -405,10 +410,24 @@ WorldLink::Standing WorldLink::standing_of_peer() const {
         return {LinkState::refused, differs};
     }
     std::string text = "connected";
-    for (const std::string& besides : {differs, plan_.trace_problem}) {
+    for (const std::string& besides : {differs, short_history(), plan_.trace_problem}) {
         text += besides.empty() ? "" : "; " + besides;
     }
     return {LinkState::connected, text};
+}
+
+// States that are older than the model's history are brought to the present by their velocity alone.
+std::string WorldLink::short_history() const {
+    const TeleopStatistics& teleop = port_->statistics.front();
+    if (!is_operator() || teleop.beyond_history == 0 || teleop.round_trip <= plan_.history) {
+        return "";
+    }
+    char text[240];
+    std::snprintf(text, sizeof(text),
+                  "the far side answers after %.2f s, and the model's history is %.2f s: moving bodies are "
+                  "corrected by velocity, and only while they are not pressed; set 'history' to %.1f s",
+                  teleop.round_trip, plan_.history, std::ceil(10.0 * teleop.round_trip + 1.0) / 10.0);
+    return text;
 }
 
 LinkReport WorldLink::report() const {

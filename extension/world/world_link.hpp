@@ -38,13 +38,14 @@ enum class LinkState : std::uint8_t {
     left        // the far side has said good-bye
 };
 
-// As the user has set the link. Every field but the scenario may change while it runs.
+// As the user has set the link. Every field but the scenario and the history may change while it runs.
 struct LinkPlan {
     bool is_operator = true;
     std::uint8_t scenario = 0;
     std::string problem;         // why there can be no way to the far side, and what to do; or empty
     std::uint64_t revision = 0;  // another one after every change of what is below
     TeleopSettings teleop;
+    double history = 1.024;  // operator: how much of its past the model keeps (unit: seconds)
     NetworkSettings network;
     std::string key_file;
     std::shared_ptr<MemoryLinkPair> wire;  // to a far side in this program; null: over the network
@@ -179,6 +180,7 @@ private:
     void note_refusals(Nanoseconds now);
     Standing standing() const;
     Standing standing_of_peer() const;
+    std::string short_history() const;
 
     LinkPlan plan_;
     bool is_planned_ = true;  // false: nobody wants it any more

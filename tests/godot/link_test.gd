@@ -362,6 +362,25 @@ func test_what_an_experiment_makes_wrong_about_the_model_is_corrected() -> void:
 	)
 
 
+func test_a_history_that_is_shorter_than_the_delay_is_told() -> void:
+	await _connect(MMTLink.SCENARIO_MMT, 0.4)
+	_here.history = 0.2
+	add_floor(_far)
+	var body := with_shape(RigidBody3D.new(), box(0.1 * Vector3.ONE), Vector3(1, 0.05, 0)) as RigidBody3D
+	_far.add_child(body)
+	_add_hands()
+	_advance(2.0)
+	body.linear_velocity = Vector3(0.3, 0, 0)
+	_advance(3.0)
+	check_equal(_here.get_state(), MMTLink.STATE_CONNECTED, "state")
+	var text := _here.get_state_text()
+	check("history is 0.20 s" in text and "set 'history'" in text, "it says: %s" % text)
+	check(_here.get_statistics().states_beyond_history > 0, "none is counted")
+	_here.history = 0.6
+	_advance(5.0)
+	check_equal(_here.get_state_text(), "connected", "with a history that is longer")
+
+
 func test_two_runs_are_the_same_to_the_bit() -> void:
 	var forces: Array[PackedVector3Array] = []
 	for run in 2:

@@ -332,5 +332,46 @@ TEST(Mmt, PlacesThatAreSeenRoughlyAreNotFelt) {
     EXPECT_LT(figures.at("force_error_mean_N"), 0.1) << "as far as it is known, chance is not followed";
 }
 
+// The path touches the box from 2 s to 3 s of its turn.
+TeleopCase wrong_box_far_away(double milliseconds, double history) {
+    TeleopCase made = wrong_box(milliseconds);
+    made.seconds = 10.0;
+    made.history = history;
+    return made;
+}
+
+TEST(Mmt, AMovingBodyIsCorrectedAtTwoSecondsOfDelayWithinItsHistory) {
+    const TeleopFigures figures = run_teleop(scene(true), wrong_box_far_away(2000.0, 2.1));
+    EXPECT_EQ(figures.at("states_beyond_history"), 0.0);
+    EXPECT_GT(figures.at("replays"), 0.0);
+    EXPECT_LT(figures.at("box_position_error_final_mm"), 0.1);
+}
+
+TEST(Mmt, BeyondTheHistoryAMovingBodyIsCorrectedByVelocityAndThatIsCounted) {
+    TeleopCase one = wrong_box_far_away(2000.0, 1.024);
+    const TeleopFigures figures = run_teleop(scene(true), one);
+    one.settings.correction = Correction::none;
+    const TeleopFigures never = run_teleop(scene(true), one);
+    EXPECT_GT(figures.at("states_beyond_history"), 0.0);
+    EXPECT_GT(figures.at("corrections"), 0.0);
+    EXPECT_EQ(figures.at("replays"), 0.0);
+    EXPECT_GT(never.at("box_position_error_final_mm"), 1.0);
+    EXPECT_LT(figures.at("box_position_error_final_mm"), 0.1);
+    EXPECT_LT(figures.at("force_error_mean_N"), 1.1 * never.at("force_error_mean_N"));
+}
+
+// The far side hears of the first sample after the hand has pushed the box and has left it.
+TEST(Mmt, StatesFromBeforeTheFirstSampleDoNotPutAPushedBoxBack) {
+    for (const double history : {1.024, 5.1}) {
+        TeleopCase one = wrong_box_far_away(5000.0, history);
+        one.seconds = 20.0;
+        const TeleopFigures figures = run_teleop(scene(true), one);
+        one.settings.correction = Correction::none;
+        const TeleopFigures never = run_teleop(scene(true), one);
+        EXPECT_LT(figures.at("box_position_error_max_mm"), 2.0 * never.at("box_position_error_max_mm"));
+        EXPECT_LT(figures.at("box_position_error_final_mm"), 0.1);
+    }
+}
+
 }  // namespace
 }  // namespace tactus::mmt_test

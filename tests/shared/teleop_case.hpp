@@ -82,6 +82,7 @@ struct TeleopCase {
     ArmSettings arm;
     double settled_from = 0.0, settled_to = 0.0;  // the arm holds still: how deep it settles (unit: seconds)
     double seconds = 10.0;
+    double history = 1.024;           // that the model keeps of its past (unit: seconds)
     Nanoseconds phase = 0;            // of the far side's ticks after the operator's, 0 … period - 1
     bool robot = false;               // scenario 3: the scene is a real place, and an emulated robot is there
     Nanoseconds late = 0;             // the far side starts so much after the operator's, >= 0

@@ -31,7 +31,7 @@ constexpr SessionHandle ghosts_from = 40;
 OperatorRoom room_for(const TeleopCase& experiment) {
     OperatorRoom room;
     room.max_tracked = 16;
-    room.samples = 2048;
+    room.samples = static_cast<std::size_t>(experiment.history / tick_seconds + 0.5);
     room.memento_bytes = 16384;
     room.pointers = 1;
     const bool never = experiment.settings.correction == Correction::none && experiment.events.empty();
@@ -419,6 +419,7 @@ TeleopFigures TeleopRun::figures(TeleopBins* bins) {
     figures["bits_per_s"] = figures["bits_forth_per_s"] + figures["bits_back_per_s"];
     figures["corrections"] = static_cast<double>(ours.corrections);
     figures["replays"] = static_cast<double>(ours.replays);
+    figures["states_beyond_history"] = static_cast<double>(ours.beyond_history);
     figures["samples_held"] = static_cast<double>(theirs.buffer.held);
     figures["samples_filled"] = static_cast<double>(theirs.buffer.filled);
     figures["round_trip_ms"] = 1e3 * ours.round_trip;

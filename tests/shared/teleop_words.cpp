@@ -265,6 +265,7 @@ constexpr NumberWord number_words[] = {
      [](TeleopCase& c, double n) { c.settings.deadband.position_weber = n; }},
     {"deadband_force", 0, 1e6, false, [](TeleopCase& c, double n) { c.settings.deadband.force = n; }},
     {"deadband_weber", 0, 1e6, false, [](TeleopCase& c, double n) { c.settings.deadband.force_weber = n; }},
+    {"history_ms", 1, longest_ms, false, [](TeleopCase& c, double n) { c.history = 1e-3 * n; }},
     {"seconds", 0.001, 1e5, false, [](TeleopCase& c, double n) { c.seconds = n; }},
     {"phase_us", 0, 999, false, [](TeleopCase& c, double n) { c.phase = from_seconds(1e-6 * n); }},
     {"late_ms", 0, 1e6, false, [](TeleopCase& c, double n) { c.late = from_seconds(1e-3 * n); }},

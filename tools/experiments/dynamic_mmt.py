@@ -1,7 +1,7 @@
 """Touch of what moves, over a network, with a model that is realistically wrong: how to bring the truth in (thesis 5.4).
 
     ./run experiment dynamic_mmt [--seconds=10] [--delays=0,25,50,100,200,500] [--losses=0,10,50] [--pictures=1]
-        [--table=1] [--variants=1] [--grid=1] [--grid_scenes=one,three,stack,hinge] [--grid_wrong=all] [--grid_delays=50,100,200]
+        [--table=1] [--variants=1] [--long=1] [--grid=1] [--grid_scenes=one,three,stack,hinge] [--grid_wrong=all] [--grid_delays=50,100,200]
         [--grid_schemes=default,never_corrected,…] [--grid_losses=0,50] [--grid_seeds=6] [--grid_set=KEY=VALUE,KEY=VALUE]
         [--mass=0.8 --friction=1.3 --tilt=1 --moved=0.01 --pose_noise=0.001 --phase=500 --late=50 --jitter=3]
 
@@ -11,6 +11,9 @@ that is one delay old, the delay there and back, and the share of packets lost. 
 VARIANT.SCHEME.100ms are other mistakes (demo_project/experiments/dynamic_mmt.json, "variants"), each with every scheme of
 measuring/rivals.py: among them "unsynchronised", a right model whose side ticks half a tick later and starts late behind a
 jittering link (thesis figure 5.5), and places that are seen with 1 mm of noise.
+
+long_delay.WAY.2000ms.* are a turn and a half with 2 s there and back: the default with a history that is longer than the delay,
+short_history with the usual one of 1.024 s, beyond which moving bodies are corrected by velocity, and never_corrected.
 
 The grid (measuring/teleop_grid.py; grid.csv has a line for each of its cases) asks the default against never correcting,
 pose alone, velocities and traditional touch, over models that are wrong in many ways; grid.unseen.* are the same of models
@@ -29,11 +32,20 @@ CORRECTIONS = ("none", "pose", "pose_velocity", "passive", "stealthy_magnitude",
 DERIVATIONS = ("none", "velocity", "acceleration", "averaged", "history", "resimulate")
 FIGURES = (
     *teleop_runs.PLACES, *teleop_runs.FIGURES, "force_jitter_rms_N", "correction_force_step_max_N", "correction_cost_jnd_p99",
-    "packets_per_s",
+    "packets_per_s", "force_error_shifted_mean_N",
 )  # fmt: skip
 # Of the variants: at this delay (milliseconds), without loss.
 VARIED_AT = "100"
 FIGURE_5_5 = "unsynchronised"
+# There and back (milliseconds); the history is a tenth of a second longer.
+LONG_MS = 2000
+LONG: dict[str, teleop_runs.Case] = {
+    "default": {"history_ms": LONG_MS + 100}, "short_history": {}, "never_corrected": {"correction": "none"},
+}  # fmt: skip
+LONG_FIGURES = (
+    "box_position_error_mean_mm", "box_position_error_max_mm", "box_position_error_final_mm", "force_error_mean_N",
+    "felt_excess_100ms_jnd_p99", "corrections", "replays", "states_beyond_history",
+)  # fmt: skip
 # Shown as curves: the model left alone, the thesis's correction, and ours.
 SHOWN = ("none.none.100ms.0pct", "pose.none.100ms.0pct", "stealthy_direction.resimulate.100ms.0pct")
 
@@ -47,6 +59,7 @@ class Settings(teleop_runs.Imperfections):
     pictures: bool = options.switch(True)
     table: bool = options.switch(True)
     variants: bool = options.switch(True)
+    long: bool = options.switch(True)
     grid: bool = options.switch(True)
     grid_scenes: tuple[str, ...] = options.names(None, lambda: teleop_runs.description("dynamic_mmt")["grid"]["scenes"])
     grid_wrong: tuple[str, ...] = options.names(None, lambda: teleop_runs.description("dynamic_mmt")["grid"]["wrong"])
@@ -84,6 +97,8 @@ def run(given: dict[str, str], output: Path) -> dict[str, object]:
     summary: dict[str, object] = _table(description, settings, output) if settings.table else {}
     if settings.variants:
         summary |= _variants(description, settings, output)
+    if settings.long:
+        summary |= _long_delay(description, output)
     if settings.grid:
         summary |= _grid(description, settings, output)
     return summary
@@ -126,6 +141,14 @@ def _variants(description: dict, settings: Settings, output: Path) -> dict[str, 
         teleop.draw_unsynchronised(output, FIGURE_5_5, float(VARIED_AT))
         teleop.draw_variants(found, tuple(description["variants"]), f"{VARIED_AT}ms", output / "variants.png")
     return summary
+
+
+def _long_delay(description: dict, output: Path) -> dict[str, object]:
+    wrong = teleop_runs.wrong(description["wrong"])
+    common: teleop_runs.Case = {"delay_ms": LONG_MS, "seconds": 15.0, "object": description["object"], **wrong}
+    cases = [{"name": f"long_delay.{way}.{LONG_MS}ms", **common, **keys} for way, keys in LONG.items()]
+    found = teleop_runs.run(description["scene"], cases, output)
+    return {f"{name}.{key}": one[key] for name, one in found.items() for key in LONG_FIGURES}
 
 
 def _grid(description: dict, settings: Settings, output: Path) -> dict[str, object]:
