@@ -29,7 +29,10 @@ CONTENTS = {
         "reproduce", "thesis", "comparison", "proxy", "teleoperation", "tool", "soft", "physics", "credibility", "devices", "sensing", "discovery",
         "stress", "proof",
     ],
-    "Internals": ["development", "architecture", "proxy_steps", "tolerances", "notebook/proxy", "roadmap", "changes"],
+    "Internals": [
+        "development", "architecture", "proxy_steps", "tolerances", "notebook/proxy", "notebook/tool", "notebook/teleoperation", "roadmap",
+        "changes",
+    ],
     "Project": ["CONTRIBUTING", "SECURITY", "CODE_OF_CONDUCT"],
 }  # fmt: skip
 # Beside the pages: what they link to and what is no page.
