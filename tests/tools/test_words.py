@@ -29,7 +29,6 @@ NOT_REWRITTEN = {
     "docs/soft.md": (14, 0.0),
     "docs/teleoperation.md": (32, 0.0),
     "docs/tolerances.md": (20, 0.0),
-    "docs/tool.md": (46, 20.2),
     "docs/wire_format.md": (24, 0.0),
 }
 # Public names that hold a replaced word: scenes and scripts have them, and a new name has to load the old one.
