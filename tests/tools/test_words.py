@@ -27,7 +27,6 @@ NOT_REWRITTEN = {
     "docs/proxy_steps.md": (19, 0.0),
     "docs/sensing.md": (10, 20.9),
     "docs/soft.md": (14, 0.0),
-    "docs/teleoperation.md": (32, 0.0),
     "docs/tolerances.md": (20, 0.0),
     "docs/wire_format.md": (24, 0.0),
 }
