@@ -423,10 +423,11 @@ std::string WorldLink::short_history() const {
         return "";
     }
     char text[240];
-    std::snprintf(text, sizeof(text),
-                  "the teleoperator answers after %.2f s, and the model's history is %.2f s: moving bodies are "
-                  "corrected by velocity, and only while they are not pressed; set 'history' to %.1f s",
-                  teleop.round_trip, plan_.history, std::ceil(10.0 * teleop.round_trip + 1.0) / 10.0);
+    std::snprintf(
+        text, sizeof(text),
+        "the teleoperator answers after %.2f s, and the model's history is %.2f s: moving bodies are "
+        "corrected by velocity, and only while they are not pressed; set 'history' to %.1f s",
+        teleop.round_trip, plan_.history, std::ceil(10.0 * teleop.round_trip + 1.0) / 10.0);
     return text;
 }
 
