@@ -243,7 +243,7 @@ struct Ghost {
 };
 inline constexpr double max_ghost_radius = 1e3;
 inline constexpr double radius_quantum = 1e-6;       // (unit: meters)
-inline constexpr double fine_radius_quantum = 1e-9;  // likewise, of what must be alike
+inline constexpr double fine_radius_quantum = 1e-9;  // where both sides must agree (unit: meters)
 // Of wave variables, as it is sent, and the most that is (unit: newton-seconds per meter).
 inline constexpr double impedance_quantum = 1e-6, max_impedance = 1e6;
 

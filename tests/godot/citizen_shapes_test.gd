@@ -175,14 +175,9 @@ func test_what_a_soft_body_falls_through_is_said() -> void:
 	for shape: Shape3D in [HeightMapShape3D.new(), rough.create_trimesh_shape(), rough.create_convex_shape()]:
 		var world := add_world()
 		world.add_child(with_shape(StaticBody3D.new(), shape, Vector3(0, -1, 0)))
-		var soft := HapticSoftBody.new()
-		var brick := BoxMesh.new()
-		brick.size = Vector3.ONE * 0.1
-		soft.mesh = brick
-		soft.cells = 3
-		var body := StaticBody3D.new()
+		var body := _sponge(Vector3.ZERO)
 		body.name = "Gives"
-		body.add_child(soft)
+		var soft: HapticSoftBody = body.get_child(0)
 		world.add_child(body)
 		world.advance(TICK)
 		var problems := "\n".join(world.get_problems())

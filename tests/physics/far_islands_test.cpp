@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
+#include <utility>
 #include <vector>
 
 #include "scene.hpp"
@@ -59,6 +60,19 @@ TEST(FarIslands, FewBodiesTakeEveryStepAsWithoutALimit) {
         EXPECT_EQ(limited_field.place(i), free_field.place(i));
 }
 
+// Of `ticks` steps, those in which the first body has moved, and those in which the 200th has.
+std::pair<int, int> steps_with_a_move(Field& field, int ticks) {
+    std::pair<int, int> moved{0, 0};
+    for (int i = 0; i < ticks; ++i) {
+        const Vec3 first = field.place(0);
+        const Vec3 last = field.place(199);
+        field.world.step(tick);
+        moved.first += field.place(0) != first ? 1 : 0;
+        moved.second += field.place(199) != last ? 1 : 0;
+    }
+    return moved;
+}
+
 TEST(FarIslands, BeyondTheLimitTheFarthestAreSlowed) {
     Field field(200, 64);
     field.throw_all({0.0, 3.0, 0.0});  // in the air for 0.6 s: none of them sleeps
@@ -67,17 +81,9 @@ TEST(FarIslands, BeyondTheLimitTheFarthestAreSlowed) {
     EXPECT_GE(field.world.slowed_count(), 136u);
     EXPECT_LE(field.world.slowed_count(), 160u);
     // The first, under the hand, moves in every step; the last in one of sixteen.
-    int moved_first = 0;
-    int moved_last = 0;
-    for (int i = 0; i < 64; ++i) {
-        const double first = field.place(0).y;
-        const double last = field.place(199).y;
-        field.world.step(tick);
-        moved_first += field.place(0).y != first ? 1 : 0;
-        moved_last += field.place(199).y != last ? 1 : 0;
-    }
-    EXPECT_EQ(moved_first, 64);
-    EXPECT_EQ(moved_last, 4);
+    const auto [first, last] = steps_with_a_move(field, 64);
+    EXPECT_EQ(first, 64);
+    EXPECT_EQ(last, 4);
 }
 
 TEST(FarIslands, NoStepMovesMoreThanTheFullRateAndATurn) {
@@ -120,17 +126,9 @@ TEST(FarIslands, WhatMovesSlowlyTakesEveryFourthStep) {
     field.throw_all({1.0, 0.0, 0.0});
     run(field.world, 60);
     EXPECT_GE(field.world.slowed_count(), 100u);
-    int moved_first = 0;
-    int moved_last = 0;
-    for (int i = 0; i < 32; ++i) {
-        const double first = field.place(0).x;
-        const double last = field.place(199).x;
-        field.world.step(tick);
-        moved_first += field.place(0).x != first ? 1 : 0;
-        moved_last += field.place(199).x != last ? 1 : 0;
-    }
-    EXPECT_EQ(moved_first, 32);
-    EXPECT_EQ(moved_last, 8);
+    const auto [first, last] = steps_with_a_move(field, 32);
+    EXPECT_EQ(first, 32);
+    EXPECT_EQ(last, 8);
 }
 
 // Without slip after 2/7 of its speed is gone, whichever steps it takes.
