@@ -13,22 +13,17 @@ std::unique_ptr<InputPlayer> InputPlayer::open(const std::string& inputs, const 
         error = "'" + inputs + "' cannot be read: name the 'inputs.tactus' of a bundle";
         return nullptr;
     }
-    OpenFile rows;
-    if (!csv.empty()) {
-        make_folder_of(csv);
-        rows.reset(open_file(csv, "wb"));
-        if (rows == nullptr) {
-            error = "'" + csv + "' cannot be written: choose a folder that exists and may be written to";
-            return nullptr;
-        }
+    if (is_same_file(inputs, csv)) {
+        error = "'" + csv + "' is the recording itself: choose another path for the rows";
+        return nullptr;
     }
-    return std::unique_ptr<InputPlayer>(new InputPlayer(std::move(file), std::move(rows), csv));
+    std::unique_ptr<InputPlayer> player(new InputPlayer(std::move(file)));
+    error = csv.empty() ? "" : player->csv_.open(csv);
+    return error.empty() ? std::move(player) : nullptr;
 }
 
-InputPlayer::InputPlayer(OpenFile inputs, OpenFile csv, const std::string& csv_path)
+InputPlayer::InputPlayer(OpenFile inputs)
     : inputs_(std::move(inputs)),
-      csv_(std::move(csv)),
-      csv_path_(csv_path),
       text_(record_csv_header()),
       replay_(inputs_.get(),
               [this](const SessionRecord& row, Nanoseconds epoch) { append_record_csv(text_, row, epoch); }) {
@@ -41,10 +36,10 @@ bool InputPlayer::play(std::uint64_t ticks) {
 }
 
 void InputPlayer::write_rows() {
-    if (csv_ != nullptr && (std::fwrite(text_.data(), 1, text_.size(), csv_.get()) != text_.size() ||
-                            std::fflush(csv_.get()) != 0)) {
-        rows_problem_ = "'" + csv_path_ + "' could not be written to its end: is the disk full?";
-        csv_.reset();
+    if (csv_ && (std::fwrite(text_.data(), 1, text_.size(), csv_.get()) != text_.size() ||
+                 std::fflush(csv_.get()) != 0)) {
+        rows_problem_ = csv_.cut_short();
+        csv_.close();
     }
     text_.clear();
 }

@@ -9,12 +9,14 @@
 
 #include "platform/file.hpp"
 #include "session/input_replay.hpp"
+#include "world/written_file.hpp"
 
 namespace tactus {
 
 class InputPlayer {
 public:
-    // `csv`: where the rows go; empty: nowhere. Null where a file cannot be opened, and `error` says why.
+    // `csv`: where the rows go; empty: nowhere. Null where a file cannot be opened, or where the rows would
+    // replace the recording, and `error` says why.
     static std::unique_ptr<InputPlayer> open(const std::string& inputs, const std::string& csv,
                                              std::string& error);
 
@@ -27,11 +29,12 @@ public:
     Session* session() { return replay_.session(); }
 
 private:
-    InputPlayer(OpenFile inputs, OpenFile csv, const std::string& csv_path);
+    explicit InputPlayer(OpenFile inputs);
     void write_rows();
 
-    OpenFile inputs_, csv_;
-    std::string csv_path_, text_, rows_problem_;
+    OpenFile inputs_;
+    WrittenFile csv_;
+    std::string text_, rows_problem_;
     InputReplay replay_;
 };
 

@@ -6,13 +6,11 @@ namespace tactus {
 
 std::unique_ptr<InputRecording> InputRecording::open(const std::string& path, const SessionSettings& settings,
                                                      const Say& say) {
-    make_folder_of(path);
-    OpenFile file(open_file(path, "wb"));
-    if (file == nullptr) {
-        say("'" + path + "' cannot be written: choose a folder that exists and may be written to");
+    std::unique_ptr<InputRecording> recording(new InputRecording(say));
+    if (const std::string problem = recording->file_.open(path); !problem.empty()) {
+        say(problem);
         return nullptr;
     }
-    std::unique_ptr<InputRecording> recording(new InputRecording(path, std::move(file), say));
     ByteSink sink;
     ValueWriter writer(sink);
     pass(writer, settings);
@@ -25,15 +23,15 @@ std::unique_ptr<InputRecording> InputRecording::open(const std::string& path, co
 
 // What could not be written to its end is played up to there.
 void InputRecording::write(InputPiece kind, std::vector<std::byte>& content) {
-    if (file_ != nullptr && !content.empty() && !write_input_piece(file_.get(), kind, content)) {
+    if (file_ && !content.empty() && !write_input_piece(file_.get(), kind, content)) {
         end_short();
     }
     content.clear();
 }
 
 void InputRecording::end_short() {
-    file_.reset();
-    say_("'" + path_ + "' could not be written to its end: is the disk full?");
+    say_(file_.cut_short());
+    file_.close();
 }
 
 void InputRecording::drain(Nanoseconds epoch) {
@@ -55,9 +53,8 @@ void InputRecording::close() {
     ValueWriter writer(sink);
     pass(writer, lost);
     write(InputPiece::end, sink.bytes());
-    // What the system still holds is written now, or never.
-    if (file_ != nullptr && std::fclose(file_.release()) != 0) {
-        end_short();
+    if (const std::string problem = file_.close(); !problem.empty()) {
+        say_(problem);
     }
 }
 

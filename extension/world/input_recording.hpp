@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "platform/file.hpp"
 #include "session/input_file.hpp"
 #include "session/input_recorder.hpp"
+#include "world/written_file.hpp"
 
 namespace tactus {
 
@@ -36,13 +36,11 @@ public:
     std::uint64_t lost_ticks() const { return recorder_.lost_ticks(); }
 
 private:
-    InputRecording(std::string path, OpenFile file, const Say& say)
-        : path_(std::move(path)), file_(std::move(file)), say_(say) {}
+    explicit InputRecording(const Say& say) : say_(say) {}
     void write(InputPiece kind, std::vector<std::byte>& content);
     void end_short();
 
-    std::string path_;
-    OpenFile file_;  // null: closed, or the disk is full
+    WrittenFile file_;  // none: closed, or the disk is full
     Say say_;
     InputRecorder recorder_;
     std::vector<std::byte> calls_, ticks_;

@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "platform/file.hpp"
 #include "realtime/recorder_ring.hpp"
 #include "realtime/tick_trace.hpp"
 #include "session/session_types.hpp"
+#include "world/written_file.hpp"
 
 namespace tactus {
 
@@ -35,7 +35,7 @@ public:
     Recording(const Recording&) = delete;
     Recording& operator=(const Recording&) = delete;
 
-    bool has_trace() const { return trace_ != nullptr; }
+    bool has_trace() const { return static_cast<bool>(trace_); }
     // The loop may still be writing into it when the recording has ended.
     const std::shared_ptr<Ring>& ring() const { return ring_; }
 
@@ -55,15 +55,13 @@ public:
 
 private:
     Recording(const RecordingFiles& files, const Say& say);
-    OpenFile create(const std::string& path);
-    void close_file(OpenFile& file, const std::string& path);
-    void complain(const std::string& what);
+    void complain(const std::string& what);  // empty: nothing
 
-    RecordingFiles files_;
+    double trace_seconds_;
     Say say_;
     std::shared_ptr<Ring> ring_;
-    OpenFile csv_;
-    OpenFile trace_;
+    WrittenFile csv_;
+    WrittenFile trace_;
     std::string text_;
     std::vector<TickRecord> ticks_;
     std::string problem_;
