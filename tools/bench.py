@@ -3,6 +3,7 @@
 NAME.gd is a bench inside Godot, NAME.py one of what is around it.
 """
 
+import json
 import math
 import os
 import re
@@ -52,6 +53,10 @@ def _number(value: str) -> None:
     raise Refused(f"{value!r} is not a number")
 
 
+def _run(command: list, result: Path) -> int:
+    return subprocess.run(command, env=os.environ | {"TACTUS_BENCH_JSON": str(result)}).returncode
+
+
 def run_in_godot(script: Path, result: Path) -> int:
     build.build("template_release", "extension")
     command = [godot.command(), "--headless", "--path", _project_of_release(), "--script", script, "--", result]
@@ -72,11 +77,21 @@ def _project_of_release() -> Path:
     return folder
 
 
-def draw(name: str, result: Path) -> None:
+def keep(partial: Path, result: Path) -> None:
+    """What a script has left takes the place of the result before when it is whole."""
+    try:
+        json.loads(partial.read_text())
+        partial.replace(result)
+    except (OSError, ValueError):
+        raise RuntimeError(f"{result} could not be written: is the disk full? The one before is as it was.") from None
+    finally:
+        partial.unlink(missing_ok=True)
+
+
+def draw(name: str, result: Path) -> int:
     """Runs tools/bench_plots/NAME.py on the result of a bench that has one: CSV and chart beside the JSON."""
     plot = cache.clone() / "tools/bench_plots" / f"{name}.py"
-    if plot.is_file():
-        subprocess.run([sys.executable, plot, result], check=False)
+    return subprocess.run([sys.executable, plot, result]).returncode if plot.is_file() else 0
 
 
 def main(arguments: list[str]) -> int:
@@ -94,19 +109,21 @@ def main(arguments: list[str]) -> int:
         program = cache.clone() / "build/template_release/bench" / name
         result = output / f"{name}.json"
         print(f"== {name}", flush=True)
-        environment = os.environ | {"TACTUS_BENCH_JSON": str(result)}
         script = cache.clone() / "tests/bench" / name
+        partial = result.with_suffix(".partial")
         if script.with_suffix(".gd").is_file():
-            code = run_in_godot(script.with_suffix(".gd"), result)
+            code = run_in_godot(script.with_suffix(".gd"), partial)
         elif script.with_suffix(".py").is_file():
-            code = subprocess.run([sys.executable, script.with_suffix(".py"), *passed_on], env=environment).returncode
+            code = _run([sys.executable, script.with_suffix(".py"), *passed_on], partial)
         else:
-            code = subprocess.run([program, *passed_on], env=environment).returncode
+            code = _run([program, *passed_on], result)  # shared/bench_kit.hpp keeps it itself
+        if code == 0 and not script.with_suffix(".cpp").is_file():
+            keep(partial, result)
+        if code == 0 and result.is_file():
+            print(f"   {cache.shown(result)}")
+            code = draw(name, result)
         if code != 0:
             return code
-        if result.is_file():
-            print(f"   {cache.shown(result)}")
-            draw(name, result)
     return 0
 
 

@@ -16,6 +16,7 @@ import entry
 from measuring import options
 from proof import faults, fuzz, loop, page, soak
 from setup import cache
+from sweeps.results import write_whole
 
 PARTS = {"fuzz": fuzz, "faults": faults, "soak": soak, "loop": loop}
 
@@ -50,7 +51,7 @@ def play(part: str, case: str, given: dict[str, str], output: Path) -> None:
     figures = module.run([case] if case else module.CASES, settings, folder)
     kept = output / f"{part}.json"
     before = json.loads(kept.read_text()) if kept.is_file() else {}
-    kept.write_text(json.dumps(before | figures, indent=2, sort_keys=True) + "\n")
+    write_whole(kept, json.dumps(before | figures, indent=2, sort_keys=True) + "\n")
 
 
 def summarise(output: Path) -> dict[str, object]:
@@ -61,7 +62,7 @@ def summarise(output: Path) -> dict[str, object]:
         if kept.is_file():
             figures = json.loads(kept.read_text())
             summary |= figures | (module.totals(figures) if hasattr(module, "totals") else {})
-    (output / "summary.json").write_text(json.dumps(summary, indent=2, sort_keys=True) + "\n")
+    write_whole(output / "summary.json", json.dumps(summary, indent=2, sort_keys=True) + "\n")
     return summary
 
 

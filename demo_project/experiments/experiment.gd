@@ -36,6 +36,7 @@ extends Node
 ## CASE.unfinished.
 
 const OptionWords := preload("res://addons/tactus/studies/option_words.gd")
+const WholeFile := preload("res://addons/tactus/studies/whole_file.gd")
 const Quietly := preload("res://experiments/quietly.gd")
 const Replay := preload("res://experiments/replay.gd")
 
@@ -417,17 +418,10 @@ func _take_screenshot(time: float) -> void:
 
 
 func _write(ending: String, content: Dictionary) -> bool:
-	var file := FileAccess.open(_file(ending), FileAccess.WRITE)
-	if file == null:
-		_fail("'%s' cannot be written" % _file(ending))
-		return false
-	var text := JSON.stringify(content, "  ", true, true) + "\n"
-	file.store_string(text)
-	file.close()
-	if FileAccess.get_file_as_string(_file(ending)) != text:
-		_fail("'%s' could not be written to its end: is the disk full?" % _file(ending))
-		return false
-	return true
+	var problem := WholeFile.write(_file(ending), JSON.stringify(content, "  ", true, true) + "\n")
+	if not problem.is_empty():
+		_fail(problem)
+	return problem.is_empty()
 
 
 func _first(node: Node, kind: String) -> Node:

@@ -10,6 +10,7 @@ extends RefCounted
 
 enum { SAME, DIFFERENT, DAMAGED }
 
+const WholeFile := preload("res://addons/tactus/studies/whole_file.gd")
 const OptionWords := preload("res://addons/tactus/studies/option_words.gd")
 const INPUTS := "_inputs.tactus"
 const SETTINGS := "_settings.json"
@@ -30,19 +31,36 @@ static func run(arguments: PackedStringArray) -> int:
 	var output: String = words.values.get("output", "")
 	if output.is_empty():
 		output = bundle.path_join("replay")
-	var worst := SAME
-	var found := 0
-	for file in DirAccess.get_files_at(bundle):
-		if file.ends_with(INPUTS):
-			found += 1
-			worst = maxi(worst, play(bundle, file.trim_suffix(INPUTS), output))
-	if found == 0:
+	var sides := Array(DirAccess.get_files_at(bundle)).filter(
+		func(file: String) -> bool: return file.ends_with(INPUTS)
+	)
+	if sides.is_empty():
 		printerr("replay: '%s' is no bundle: no file of it ends in %s." % [bundle, INPUTS])
 		return DAMAGED
+	if _is_same_folder(bundle, output):
+		printerr("replay: --output=%s is the bundle itself: what is played would replace it." % output)
+		return DAMAGED
+	var worst := SAME
+	for file: String in sides:
+		worst = maxi(worst, play(bundle, file.trim_suffix(INPUTS), output))
 	for missing in _missing(bundle):
 		printerr("replay: ", missing, ".")
 		worst = maxi(worst, DAMAGED)
 	return worst
+
+
+## Also by another path, such as one with a link: a file that is written into one is seen in the other.
+static func _is_same_folder(one: String, other: String) -> bool:
+	var mark := ".is_same_%d" % OS.get_process_id()
+	DirAccess.make_dir_recursive_absolute(other)
+	if DirAccess.make_dir_absolute(other.path_join(mark)) != OK:
+		return (
+			ProjectSettings.globalize_path(one).simplify_path()
+			== ProjectSettings.globalize_path(other).simplify_path()
+		)
+	var found := DirAccess.dir_exists_absolute(one.path_join(mark))
+	DirAccess.remove_absolute(other.path_join(mark))
+	return found
 
 
 ## What the bundle should have, as each of its sides has listed it, and has not.
@@ -100,12 +118,9 @@ static func play(bundle: String, side: String, output: String) -> int:
 	report["rows"] = _compared(rows, played_rows, report.problem == "")
 	var path := output.path_join(side + "_replay.json")
 	var text := JSON.stringify(report, "  ", true, true) + "\n"
-	var file := FileAccess.open(path, FileAccess.WRITE)
-	if file != null:
-		file.store_string(text)
-		file.close()
-	if FileAccess.get_file_as_string(path) != text:
-		printerr("replay: '%s' could not be written: is the disk full?" % path)
+	var problem := WholeFile.write(path, text)
+	if not problem.is_empty():
+		printerr("replay: ", problem, ".")
 		return DAMAGED
 	print("%s: %s" % [side, _in_words(report)])
 	if not report.same or report.rows == "different":

@@ -1,6 +1,8 @@
 extends RefCounted
 ## The plots of a bundle as files of their own: curves that a paper can take, of CASE.csv.
 
+const WholeFile := preload("res://addons/tactus/studies/whole_file.gd")
+
 const SIZE := Vector2(900, 320)
 const MARGIN := Vector4(70, 40, 20, 50)  ## left, top, right, bottom
 const POINTS := 1500  ## of a curve; of more rows some are left out
@@ -8,24 +10,20 @@ const STYLE := "font-family='DejaVu Sans, sans-serif' font-size='13' fill='#1f29
 const AXES := {"x": "#b2443f", "y": "#3f8148", "z": "#33649c"}
 
 
-## False where one could not be written to its end.
-static func draw(folder: String, side: String) -> bool:
+## Empty, or why one could not be written.
+static func draw(folder: String, side: String) -> String:
 	var columns := _read(folder.path_join(side + ".csv"))
 	if columns.is_empty() or (columns.time_us as PackedFloat64Array).size() < 2:
-		return true
+		return ""
 	for plot: Array in [
 		["force", "Force on the hand", "N", 1.0], ["hand", "Place of the hand", "mm", 1000.0]
 	]:
 		var path := folder.path_join("%s_%s.svg" % [side, plot[0]])
-		var file := FileAccess.open(path, FileAccess.WRITE)
-		if file == null:
-			return false
 		var text := _svg(columns, plot[0], "%s: %s" % [side, plot[1]], plot[2], plot[3])
-		file.store_string(text)
-		file.close()
-		if FileAccess.get_file_as_string(path) != text:
-			return false
-	return true
+		var problem := WholeFile.write(path, text)
+		if not problem.is_empty():
+			return problem
+	return ""
 
 
 static func _read(path: String) -> Dictionary:

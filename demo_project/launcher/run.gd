@@ -46,8 +46,9 @@ func start(launch: Launch) -> int:
 		printerr("launch: the other side did not end.")
 		code = 1
 	for side: String in names:
-		if not Plots.draw(folder, side):
-			printerr("launch: the plots of '%s' could not be written: is the disk full?" % side)
+		var problem := Plots.draw(folder, side)
+		if not problem.is_empty():
+			printerr("launch: ", problem, ".")
 			code = 1
 	finished.emit("The bundle is in %s" % folder if code == 0 else "It failed: the output says why")
 	return code

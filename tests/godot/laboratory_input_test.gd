@@ -110,6 +110,11 @@ func test_a_bundle_that_lacks_a_part_is_not_the_same() -> void:
 		DirAccess.rename_absolute(_folder.path_join(part), _folder.path_join("kept"))
 		check_equal(Replay.run(PackedStringArray(again)), Replay.DAMAGED, "without " + part)
 		DirAccess.rename_absolute(_folder.path_join("kept"), _folder.path_join(part))
+	var rows := FileAccess.get_file_as_string(_folder.path_join("hand.csv"))
+	for itself: String in [_folder, _folder + "/", _folder.path_join("again=1/..")]:
+		var over := ["--replay=" + _folder, "--output=" + itself]
+		check_equal(Replay.run(PackedStringArray(over)), Replay.DAMAGED, "into the bundle itself, " + itself)
+		check_equal(FileAccess.get_file_as_string(_folder.path_join("hand.csv")), rows, "its rows")
 	DirAccess.make_dir_absolute(_folder.path_join("hand.unfinished"))
 	check_equal(Replay.run(PackedStringArray(again)), Replay.DAMAGED, "of a run that was killed")
 	DirAccess.remove_absolute(_folder.path_join("hand.unfinished"))

@@ -10,6 +10,7 @@ import sys
 from pathlib import Path
 
 from setup import cache, python_tools
+from sweeps.results import write_whole
 
 UNITS = {
     "push_off_center.turn": "rad",
@@ -108,8 +109,8 @@ def table(values: dict[str, float]) -> str:
 
 def main(result: Path) -> None:
     values = compared(json.loads(result.read_text()), of_mujoco())
-    result.write_text(json.dumps(values, indent=1) + "\n")
-    result.with_suffix(".md").write_text(table(values))
+    write_whole(result, json.dumps(values, indent=1) + "\n")
+    write_whole(result.with_suffix(".md"), table(values))
     print(f"   {result.with_suffix('.md').name} beside it")
 
 

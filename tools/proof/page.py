@@ -5,6 +5,7 @@ from pathlib import Path
 
 from proof import faults, fuzz
 from setup import cache
+from sweeps.results import write_whole
 
 PAGE = cache.clone() / "docs/proof.md"
 PICTURES = {"soak/memory.png": "proof_memory.png", "loop/lateness.png": "proof_lateness.png"}
@@ -15,7 +16,7 @@ def write(figures: dict, output: Path, page: Path = PAGE) -> None:
     for made, name in PICTURES.items():
         if (output / made).is_file():
             shutil.copy(output / made, page.parent / name)
-    page.write_text(text(figures))
+    write_whole(page, text(figures))
     print(f"{page}")
 
 

@@ -7,6 +7,8 @@ extends Control
 
 signal finished(report: Dictionary)
 
+const WholeFile := preload("res://addons/tactus/studies/whole_file.gd")
+
 ## From the middle of the room to its walls, in metres.
 const ROOM := 0.02
 ## A wall is pressed by so much, in newtons.
@@ -167,14 +169,8 @@ func _write() -> void:
 		"directions": _pressed,
 		"tick_period_p99_us": statistics.get("tick_period_p99_us", 0.0),
 	}
-	var file := FileAccess.open(report_path, FileAccess.WRITE)
-	if file == null:
-		%Said.text = "The report cannot be written to %s" % report_path
-		return
-	var text := JSON.stringify(report, "\t")
-	file.store_string(text)
-	file.close()
-	if FileAccess.get_file_as_string(report_path) != text:
-		%Said.text = "The report could not be written to the end of %s: is the disk full?" % report_path
+	var problem := WholeFile.write(report_path, JSON.stringify(report, "\t"))
+	if not problem.is_empty():
+		%Said.text = "The report " + problem
 		return
 	finished.emit(report)

@@ -50,7 +50,7 @@ var _told_at := 0.0
 
 
 func _ready() -> void:
-	if get_tree().current_scene == self:
+	if _is_program():
 		var wrong := take_words(OS.get_cmdline_user_args())
 		if not wrong.is_empty():
 			_end_with(wrong)
@@ -201,6 +201,18 @@ func _end_with(why: String) -> void:
 	problem = why
 	%Question.text = "The study has stopped: %s." % why
 	push_error(why)
+	if _is_program() and DisplayServer.get_name() == "headless":
+		get_tree().quit.call_deferred(1)
+
+
+## The program that has started it learns from the exit code that not all answers are there.
+func _notification(what: int) -> void:
+	if what == NOTIFICATION_WM_CLOSE_REQUEST and not problem.is_empty() and _is_program():
+		get_tree().quit(1)
+
+
+func _is_program() -> bool:
+	return is_inside_tree() and get_tree().current_scene == self
 
 
 func _draw_anew(of_trial: int) -> void:

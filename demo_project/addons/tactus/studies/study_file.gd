@@ -11,6 +11,8 @@ extends RefCounted
 @warning_ignore_start("unsafe_method_access", "unsafe_property_access", "unsafe_call_argument")
 @warning_ignore_start("integer_division", "incompatible_ternary", "shadowed_variable_base_class")
 
+const WholeFile := preload("whole_file.gd")
+
 ## A participant's code: no name of a person, and nothing that a path could be confused by.
 const CODE := "^[A-Za-z0-9_-]{1,32}$"
 ## A run whose lock is older has been left (unit: seconds).
@@ -56,7 +58,7 @@ func begin(
 			return "'%s' cannot be made (%s): choose another folder" % [folder, error_string(code)]
 	about = {"settings": settings, "finished": false}
 	about.merge(more)
-	return _write_whole(".json", JSON.stringify(about, "  ", true, true) + "\n")
+	return _write_about()
 
 
 ## Why that is no participant's code; empty where it is one.
@@ -81,12 +83,12 @@ func add(row: Dictionary) -> String:
 		_path(".csv"), FileAccess.READ_WRITE if not _written.is_empty() else FileAccess.WRITE
 	)
 	if file == null:
-		return _not_kept(".csv", error_string(FileAccess.get_open_error()))
+		return _not_kept(error_string(FileAccess.get_open_error()))
 	file.seek_end()
 	file.store_string(text)
 	file.close()
 	if FileAccess.get_file_as_string(_path(".csv")) != _written + text:
-		return _not_kept(".csv", "is the disk full?")
+		return _not_kept("is the disk full?")
 	_written += text
 	touch()
 	return ""
@@ -96,7 +98,7 @@ func add(row: Dictionary) -> String:
 func finish(results: Dictionary) -> String:
 	about["finished"] = true
 	about["results"] = results
-	var problem := _write_whole(".json", JSON.stringify(about, "  ", true, true) + "\n")
+	var problem := _write_about()
 	leave()
 	return problem
 
@@ -170,27 +172,20 @@ func _go_on() -> String:
 		whole += line + "\n"
 	touch()
 	_written = whole
-	return "" if whole == text else _write_whole(".csv", whole)
+	return "" if whole == text else _kept(WholeFile.write(_path(".csv"), whole))
 
 
-## There as a whole, or as it was.
-func _write_whole(ending: String, text: String) -> String:
-	var partial := _path(ending) + ".partial"
-	var file := FileAccess.open(partial, FileAccess.WRITE)
-	if file == null:
-		return _not_kept(ending, error_string(FileAccess.get_open_error()))
-	file.store_string(text)
-	file.close()
-	if FileAccess.get_file_as_string(partial) != text:
-		return _not_kept(ending, "is the disk full?")
-	var code := DirAccess.rename_absolute(
-		ProjectSettings.globalize_path(partial), ProjectSettings.globalize_path(_path(ending))
-	)
-	return "" if code == OK else _not_kept(ending, error_string(code))
+func _write_about() -> String:
+	return _kept(WholeFile.write(_path(".json"), JSON.stringify(about, "  ", true, true) + "\n"))
 
 
-func _not_kept(ending: String, why: String) -> String:
-	return "'%s' could not be written (%s): the answers before this one are there" % [_path(ending), why]
+## The same, with what a participant's answers are worth then.
+static func _kept(problem: String) -> String:
+	return problem + ": the answers before this one are there" if problem != "" else ""
+
+
+func _not_kept(why: String) -> String:
+	return _kept("'%s' could not be written (%s)" % [_path(".csv"), why])
 
 
 ## As a spreadsheet reads it.
