@@ -12,6 +12,7 @@ const PLAYED_SECONDS := 12.0
 
 var _folder := ""
 var _made := 0
+var _has_failed := false
 
 
 func _ready() -> void:
@@ -22,7 +23,7 @@ func _ready() -> void:
 	settings.set_setting("run/window_placement/game_embed_mode", -1)
 	await _resize(SIZE)
 	await _run()
-	get_tree().quit()
+	get_tree().quit(1 if _has_failed else 0)
 
 
 func _run() -> void:
@@ -147,7 +148,8 @@ func _open_new(root: Node, called: String) -> void:
 	root.free()
 	_made += 1
 	var file := "res://%s_%d.tscn" % [called, _made]
-	ResourceSaver.save(packed, file)
+	if ResourceSaver.save(packed, file) != OK:
+		_has_failed = true
 	await _open(file)
 
 
@@ -193,8 +195,7 @@ func _frames(count: int) -> void:
 
 func _save(called: String) -> void:
 	await _frames(5)
-	(await _picture()).save_png(_folder.path_join(called + ".png"))
-	print("PICTURE ", called)
+	_keep(await _picture(), called)
 
 
 func _save_inspector(called: String) -> void:
@@ -205,7 +206,15 @@ func _save_inspector(called: String) -> void:
 	await _frames(10)
 	var inspector := EditorInterface.get_inspector().get_parent_control()
 	var area := Rect2i(inspector.get_global_rect())
-	(await _picture()).get_region(area).save_png(_folder.path_join(called + ".png"))
+	_keep((await _picture()).get_region(area), called)
+
+
+func _keep(picture: Image, called: String) -> void:
+	var path := _folder.path_join(called + ".png")
+	var code := picture.save_png(path)
+	if code != OK:
+		_has_failed = true
+		printerr("'%s' could not be written (%s)" % [path, error_string(code)])
 	print("PICTURE ", called)
 
 

@@ -35,6 +35,8 @@ const SECONDS := {
 ## What a depth camera needs to find what stands before it, at most.
 const FINDS_WITHIN := 120.0
 
+var _has_failed := false
+
 
 func _initialize() -> void:
 	root.size = Vector2i(1280, 720)
@@ -50,7 +52,14 @@ func _run() -> void:
 		asked.erase(word)
 	for scene_name: String in Gallery.SCENES if asked.is_empty() else asked:
 		await _take(scene_name, folder)
-	quit()
+	quit(1 if _has_failed else 0)
+
+
+## What saving a picture has returned.
+func _keep(code: Error, path: String) -> void:
+	if code != OK:
+		_has_failed = true
+		printerr("'%s' could not be written (%s)" % [path, error_string(code)])
 
 
 func _take(scene_name: String, frames_folder: String) -> void:
@@ -65,12 +74,14 @@ func _take(scene_name: String, frames_folder: String) -> void:
 	var seconds: float = SECONDS.get(scene_name, USUAL_SECONDS)
 	if frames_folder.is_empty():
 		await _play(worlds, seconds)
-		(await _picture()).save_webp(Gallery.picture_of(scene_name), true, 0.9)
+		var path := Gallery.picture_of(scene_name)
+		_keep((await _picture()).save_webp(path, true, 0.9), path)
 	else:
 		await _play(worlds, maxf(0.0, seconds - 0.5 * MOVING_SECONDS))
 		for frame in roundi(MOVING_SECONDS / FRAME / FRAMES_SKIPPED):
 			await _play(worlds, FRAME * FRAMES_SKIPPED)
-			(await _picture()).save_png(frames_folder.path_join("%s_%03d.png" % [scene_name, frame]))
+			var path := frames_folder.path_join("%s_%03d.png" % [scene_name, frame])
+			_keep((await _picture()).save_png(path), path)
 	scene.free()
 
 

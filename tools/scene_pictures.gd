@@ -65,6 +65,7 @@ const OVERLAID := {
 }
 
 var _folder := ""
+var _has_failed := false
 
 
 func _initialize() -> void:
@@ -89,7 +90,7 @@ func _run() -> void:
 	for called: String in GALLERY:
 		if asked.is_empty() or called in asked:
 			await _scene(called, GALLERY[called])
-	quit()
+	quit(1 if _has_failed else 0)
 
 
 func _rig(called: String, at: Vector3) -> void:
@@ -131,7 +132,7 @@ func _rig_moving(called: String) -> void:
 		RenderingServer.render_loop_enabled = true
 		await process_frame
 		await RenderingServer.frame_post_draw
-		root.get_texture().get_image().save_png(_folder.path_join("%s-%03d.png" % [called, frame]))
+		_keep("%s-%03d" % [called, frame])
 	print("PICTURE ", called)
 	root.size = SIZE
 	scene.free()
@@ -185,8 +186,16 @@ func _save(called: String) -> void:
 	for _i in 3:
 		await process_frame
 	await RenderingServer.frame_post_draw
-	root.get_texture().get_image().save_png(_folder.path_join(called + ".png"))
+	_keep(called)
 	print("PICTURE ", called)
+
+
+func _keep(called: String) -> void:
+	var path := _folder.path_join(called + ".png")
+	var code := root.get_texture().get_image().save_png(path)
+	if code != OK:
+		_has_failed = true
+		printerr("'%s' could not be written (%s)" % [path, error_string(code)])
 
 
 func _sees(scene: Node) -> bool:

@@ -81,11 +81,11 @@ void report_kinematics(Report& report, int places) {
 
 // How well the arm holds the hand, over a plane through its axis: device_conditioning.csv. Empty: no sound
 // place.
-void write_conditioning() {
-    std::FILE* const csv =
-        std::fopen((result_path("device").parent_path() / "device_conditioning.csv").string().c_str(), "w");
+bool write_conditioning() {
+    KeptFile file(result_path("device").parent_path() / "device_conditioning.csv");
+    std::FILE* const csv = file.get();
     if (!csv) {
-        return;
+        return false;
     }
     std::fprintf(csv, "geometry,x_mm,z_mm,condition\n");
     const auto write = [csv](const char* name, const DeltaGeometry& geometry) {
@@ -102,7 +102,7 @@ void write_conditioning() {
     };
     write("falcon", falcon_geometry);
     write("falcon_martin", falcon_geometry_martin);
-    std::fclose(csv);
+    return file.keep();
 }
 
 void report_random_input(Report& report, std::int64_t inputs) {
@@ -123,7 +123,8 @@ void report_random_input(Report& report, std::int64_t inputs) {
 }
 
 // Every wall as it is asked for, and as it is made safe.
-void report_walls(Report& report) {
+// False where its rows could not be written.
+bool report_walls(Report& report) {
     struct Row {
         ContactCase contact;
         ContactFigures safe, free;
@@ -154,27 +155,23 @@ void report_walls(Report& report) {
     double created_free = 0.0;
     int unstable = 0;
     int unstable_free = 0;
-    const std::filesystem::path json = result_path("device");
-    std::FILE* csv = std::fopen((json.parent_path() / "device_walls.csv").string().c_str(), "w");
-    if (csv) {
-        std::fprintf(csv,
-                     "stiffness,wall_damping,device_damping,rate,delay,used,created_J,stable,"
-                     "free_created_J,free_stable\n");
+    KeptFile file(result_path("device").parent_path() / "device_walls.csv");
+    std::FILE* const csv = file.get();
+    if (!csv) {
+        return false;
     }
+    std::fprintf(csv,
+                 "stiffness,wall_damping,device_damping,rate,delay,used,created_J,stable,"
+                 "free_created_J,free_stable\n");
     for (const Row& row : rows) {
         created = std::max(created, row.safe.energy_created);
         created_free = std::max(created_free, row.free.energy_created);
         unstable += row.safe.stable ? 0 : 1;
         unstable_free += row.free.stable ? 0 : 1;
-        if (csv) {
-            std::fprintf(csv, "%g,%g,%g,%g,%g,%g,%g,%d,%g,%d\n", row.contact.wall.stiffness,
-                         row.contact.wall.damping, row.contact.device_damping, 1.0 / row.contact.lag.seconds,
-                         row.contact.lag.delay, row.safe.stiffness_used, row.safe.energy_created,
-                         row.safe.stable ? 1 : 0, row.free.energy_created, row.free.stable ? 1 : 0);
-        }
-    }
-    if (csv) {
-        std::fclose(csv);
+        std::fprintf(csv, "%g,%g,%g,%g,%g,%g,%g,%d,%g,%d\n", row.contact.wall.stiffness,
+                     row.contact.wall.damping, row.contact.device_damping, 1.0 / row.contact.lag.seconds,
+                     row.contact.lag.delay, row.safe.stiffness_used, row.safe.energy_created,
+                     row.safe.stable ? 1 : 0, row.free.energy_created, row.free.stable ? 1 : 0);
     }
     report.set("safety.walls", static_cast<double>(rows.size()));
     report.set("safety.energy_created_max_J", created);
@@ -182,6 +179,7 @@ void report_walls(Report& report) {
     report.set("safety.walls_unstable_unlimited", unstable_free);
     std::printf("walls       %zu, at most %.1e J made, %d unstable; as asked for: %.1e J, %d unstable\n",
                 rows.size(), created, unstable, created_free, unstable_free);
+    return file.keep();
 }
 
 // Forces that scripts compute, on an arm: see script_forces.hpp.
@@ -472,9 +470,13 @@ int main(int count, char** arguments) {
         return report.write_json(result_path("device")) ? 0 : 1;
     }
     report_kinematics(report, places);
-    write_conditioning();
+    if (!write_conditioning()) {
+        return 1;
+    }
     report_random_input(report, inputs);
-    report_walls(report);
+    if (!report_walls(report)) {
+        return 1;
+    }
     report_scripts(report, 50);
     if (rounds > 0) {
         report_ticks_of_hands(report);

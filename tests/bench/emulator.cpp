@@ -143,7 +143,9 @@ void judge_jitter(Judge& judge, const LinkConditions& conditions, const Distribu
 
 void judge_delays(Judge& judge) {
     for (const Nanoseconds delay : {Nanoseconds{0}, Nanoseconds{123'457}, 100 * ms, 10'000 * ms}) {
-        if (!judge.begins("delay_" + std::to_string(delay / ms) + "ms")) {
+        const bool is_whole = delay % ms == 0;
+        if (!judge.begins("delay_" + std::to_string(is_whole ? delay / ms : delay) +
+                          (is_whole ? "ms" : "ns"))) {
             continue;
         }
         LinkConditions conditions;

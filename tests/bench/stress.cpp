@@ -92,10 +92,9 @@ std::string fingerprint() {
 
 // A chunk as text: its counts in their order, one a line, then the failures.
 bool write_chunk(const std::filesystem::path& path, const StressCounts& counts) {
-    const std::filesystem::path partial = path.string() + ".partial";
-    std::FILE* const file = std::fopen(partial.c_str(), "w");
+    KeptFile kept(path);
+    std::FILE* const file = kept.get();
     if (!file) {
-        std::perror(partial.c_str());
         return false;
     }
     for (const Figure& figure : figures) {
@@ -106,10 +105,7 @@ bool write_chunk(const std::filesystem::path& path, const StressCounts& counts) 
     for (const std::string& failure : counts.failures) {
         std::fprintf(file, "%s\n", failure.c_str());
     }
-    std::error_code failed;
-    const bool written = std::fclose(file) == 0;
-    std::filesystem::rename(partial, path, failed);
-    return written && !failed;
+    return kept.keep();
 }
 
 bool read_chunk(const std::filesystem::path& path, StressCounts& counts) {

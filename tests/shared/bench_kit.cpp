@@ -89,34 +89,62 @@ void Report::set(const std::string& key, double value) {
     }
 }
 
+KeptFile::KeptFile(std::filesystem::path path) : path_(std::move(path)), partial_(path_) {
+    std::error_code failed;
+    if (path_.has_parent_path()) {
+        std::filesystem::create_directories(path_.parent_path(), failed);
+    }
+    partial_ += ".partial";
+    file_ = std::fopen(partial_.string().c_str(), "w");
+    if (!file_) {
+        std::perror(partial_.string().c_str());
+    }
+}
+
+KeptFile::~KeptFile() {
+    if (file_) {
+        std::fclose(file_);
+    }
+}
+
+bool KeptFile::keep() {
+    if (!file_) {
+        return false;
+    }
+    // What the system still holds is written now, or never.
+    const bool failed_before = std::ferror(file_) != 0;
+    const bool failed_now = std::fclose(std::exchange(file_, nullptr)) != 0;
+    std::error_code failed;
+    if (failed_before || failed_now) {
+        std::fprintf(stderr, "%s could not be written to its end: is the disk full?\n",
+                     path_.string().c_str());
+        std::filesystem::remove(partial_, failed);
+        return false;
+    }
+    std::filesystem::rename(partial_, path_, failed);
+    if (failed) {
+        std::fprintf(stderr, "%s: %s\n", path_.string().c_str(), failed.message().c_str());
+    }
+    return !failed;
+}
+
 bool Report::write_json(const std::filesystem::path& path) const {
     if (values_.empty()) {
         std::fprintf(stderr, "nothing of that name is measured; %s stays as it was\n", path.string().c_str());
         return false;
     }
-    std::error_code failed;
-    std::filesystem::create_directories(path.parent_path(), failed);
-    // The results of before stay until these are whole.
-    std::filesystem::path partial = path;
-    partial += ".partial";
-    std::FILE* const file = std::fopen(partial.string().c_str(), "w");
-    if (!file) {
-        std::perror(partial.string().c_str());
+    KeptFile file(path);
+    if (!file.get()) {
         return false;
     }
     const char* separator = "{\n";
     for (const auto& [key, value] : values_) {
-        std::fprintf(file, "%s  \"%s\": %.9g", separator, key.c_str(), std::isfinite(value) ? value : -1.0);
+        std::fprintf(file.get(), "%s  \"%s\": %.9g", separator, key.c_str(),
+                     std::isfinite(value) ? value : -1.0);
         separator = ",\n";
     }
-    std::fputs("\n}\n", file);
-    const bool failed_before = std::ferror(file) != 0;
-    if (std::fclose(file) != 0 || failed_before) {
-        std::perror(partial.string().c_str());
-        return false;
-    }
-    std::filesystem::rename(partial, path, failed);
-    return !failed;
+    std::fputs("\n}\n", file.get());
+    return file.keep();
 }
 
 std::filesystem::path result_path(std::string_view name) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -37,6 +38,25 @@ private:
 // Whether `name` is among what --only=PATTERN chooses: names that begin with the pattern, in which * stands
 // for anything. With `whole` false the name may go on: whether something that begins with it can be chosen.
 bool is_chosen(std::string_view name, std::string_view pattern, bool whole = true);
+
+// A file of results that takes the place of the one before when all of it is there, and not sooner.
+class KeptFile {
+public:
+    // Where it cannot be made, the reason is on stderr and `get` is null.
+    explicit KeptFile(std::filesystem::path path);
+    ~KeptFile();
+    KeptFile(const KeptFile&) = delete;
+    KeptFile& operator=(const KeptFile&) = delete;
+
+    std::FILE* get() const { return file_; }
+    // Closes it. False where not all of it could be written: then the file of before is as it was, and the
+    // reason is on stderr.
+    bool keep();
+
+private:
+    std::filesystem::path path_, partial_;
+    std::FILE* file_ = nullptr;
+};
 
 // One flat JSON object; CASE.metric keys in the order they were set.
 class Report {

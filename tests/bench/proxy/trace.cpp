@@ -81,9 +81,9 @@ int write_trace(const TraceSettings& settings) {
         std::fprintf(stderr, "--radius must be above 0\n");
         return 2;
     }
-    std::FILE* const out = std::fopen(settings.output.c_str(), "w");
+    shared::KeptFile file(settings.output);
+    std::FILE* const out = file.get();
     if (!out) {
-        std::perror(settings.output.c_str());
         return 2;
     }
     testing::stay_on_one_processor();
@@ -102,7 +102,7 @@ int write_trace(const TraceSettings& settings) {
                      tick.position.y, tick.position.z, force.total.x, force.total.y, force.total.z,
                      nanoseconds, rig.proxy.touching().size());
     }
-    return std::fclose(out) == 0 ? 0 : 1;
+    return file.keep() ? 0 : 1;
 }
 
 }  // namespace tactus::bench
