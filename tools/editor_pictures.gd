@@ -64,7 +64,7 @@ func _gizmos() -> void:
 	shape.shape = box
 	tool.add_child(shape)
 	await _node_alone(tool, "gizmo_tool", Vector3(0.1, 0.1, 0.2))
-	var sensor := DepthSensor.new()
+	var sensor := HapticDepthSensor.new()
 	sensor.active = false
 	sensor.position = Vector3(0, 0.7, 0.3)
 	sensor.rotation.x = -0.35 * PI

@@ -102,6 +102,6 @@ func _picture() -> Image:
 
 
 func _sees(scene: Node) -> bool:
-	return scene.find_children("*", "DepthSensor").all(
-		func(sensor: DepthSensor) -> bool: return sensor.get_objects().size() > 1
+	return scene.find_children("*", "HapticDepthSensor").all(
+		func(sensor: HapticDepthSensor) -> bool: return sensor.get_objects().size() > 1
 	)

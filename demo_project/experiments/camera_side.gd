@@ -120,7 +120,7 @@ func _say(now: float) -> void:
 	if _part == "far":
 		var proxy: ProxyPointer = _reality.get_node("ProxyPointer")
 		line["tip_force"] = _numbers(proxy.get_force())
-		var sensor: DepthSensor = _world.get_node("DepthSensor")
+		var sensor: HapticDepthSensor = _world.get_node("DepthSensor")
 		line["sensor"] = sensor.get_state_text()
 		line["frame_ms"] = sensor.frame_ms
 		if not _has_shown and sensor.get_objects().size() >= OBJECTS - 1:
@@ -137,7 +137,7 @@ func _say(now: float) -> void:
 
 
 ## The points that the camera sees, and what it has found where: in millimeters, in its own frame.
-func _seen(sensor: DepthSensor) -> Dictionary:
+func _seen(sensor: HapticDepthSensor) -> Dictionary:
 	var cloud: MeshInstance3D = sensor.get_child(-1, true)
 	var points: PackedVector3Array = cloud.mesh.surface_get_arrays(0)[Mesh.ARRAY_VERTEX]
 	var said := []

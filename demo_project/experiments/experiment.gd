@@ -24,7 +24,7 @@ extends Node
 ##                      CASE_images.oni and how it was played to CASE_settings.json: with these the output
 ##                      is a bundle
 ## --watch=1            it is drawn as it is played
-## --camera.NAME=VALUE  a property of the scene's DepthSensor
+## --camera.NAME=VALUE  a property of the scene's HapticDepthSensor
 ## --sides=NAME,NAME    the cases that belong to the same bundle, this one among them
 ## --replay=BUNDLE      instead of all this: plays it again, see replay.gd
 ## --launch=form        instead of all this: the launcher; --launch=now: what it does, without its form
@@ -222,7 +222,7 @@ func _run_scene(scene: Node) -> int:
 	for one: Array in [
 		["link", link, _link_options],
 		["device", device, _device_options],
-		["camera", _first(scene, "DepthSensor"), _camera_options]
+		["camera", _first(scene, "HapticDepthSensor"), _camera_options]
 	]:
 		var problem := _set_all(one[0], one[1], one[2])
 		if not problem.is_empty():
@@ -278,7 +278,7 @@ func _record_inputs(scene: Node, played: HapticWorld) -> void:
 		var of_whom := "" if world == played else "_" + String(world.name).to_snake_case()
 		world.inputs_path = _file(of_whom + "_inputs.tactus")
 		_endings.append(of_whom + "_inputs.tactus")
-	var camera := _first(scene, "DepthSensor") as DepthSensor
+	var camera := _first(scene, "HapticDepthSensor") as HapticDepthSensor
 	if camera != null:
 		camera.images_path = _file("_images.oni")
 		_endings.append("_images.oni")
@@ -311,8 +311,10 @@ func _parts() -> Dictionary:
 ## Options change nothing that another scene shares.
 func _give_own_resources(link: MMTLink) -> void:
 	if link != null:
-		link.conditions = link.conditions.duplicate() if link.conditions != null else NetworkConditions.new()
-		link.tuning = link.tuning.duplicate() if link.tuning != null else TeleopTuning.new()
+		link.conditions = (
+			link.conditions.duplicate() if link.conditions != null else MMTNetworkConditions.new()
+		)
+		link.tuning = link.tuning.duplicate() if link.tuning != null else MMTTuning.new()
 
 
 ## Empty, or what was refused: what the node has afterwards counts, not what it was given.

@@ -31,8 +31,8 @@ const SCENARIOS := {
 const DRIVERS := ["HapticDevice", "Driver", "device.driver"]
 const CORRECTIONS := ["MMTLink", "CorrectionScheme", "link.correction_scheme"]
 const CONTROLS := ["MMTLink", "ControlScheme", "link.control_scheme"]
-const DERIVATIONS := ["TeleopTuning", "Derivation", "link.tuning.derivation"]
-const SOURCES := ["DepthSensor", "Source", "camera.source"]
+const DERIVATIONS := ["MMTTuning", "Derivation", "link.tuning.derivation"]
+const SOURCES := ["HapticDepthSensor", "Source", "camera.source"]
 
 ## Every choice with what it is before anybody has chosen: a text, a number, or the name of an enumerator.
 var chosen := {

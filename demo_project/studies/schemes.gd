@@ -62,7 +62,7 @@ func _testbed(called: String) -> Node3D:
 
 
 func _join(here: Node3D, there: Node3D) -> void:
-	var conditions := NetworkConditions.new()
+	var conditions := MMTNetworkConditions.new()
 	conditions.delay = delay / 2.0
 	for testbed: Node3D in [here, there]:
 		var link: MMTLink = testbed.get_node("HapticWorld/MMTLink")

@@ -114,7 +114,7 @@ std::string explain(const Disagreement& disagreement, const Terms& own, const Te
     }
     if (disagreement.has(Term::impedance)) {
         return "the wave impedance is " + number(peer.impedance) + " N·s/m on the other side and " +
-               number(own.impedance) + " here: set 'passivity_wave_impedance' of both TeleopTunings alike";
+               number(own.impedance) + " here: set 'passivity_wave_impedance' of both MMTTunings alike";
     }
     if (disagreement.has(Term::bodies)) {
         const bool operates = side == Side::operator_side;

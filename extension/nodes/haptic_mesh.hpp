@@ -8,8 +8,8 @@
 #include <string>
 
 #include "nodes/body_parts.hpp"
-#include "nodes/haptic_field.hpp"
 #include "nodes/haptic_material.hpp"
+#include "nodes/haptic_volume.hpp"
 #include "nodes/mesh_library.hpp"
 #include "nodes/properties.hpp"
 #include "nodes/shape_reading.hpp"
@@ -74,7 +74,7 @@ private:
     void forget_triangles();
 
     godot::Ref<godot::Mesh> mesh_;
-    godot::Ref<HapticField> field_;
+    godot::Ref<HapticVolume> field_;
     godot::NodePath mesh_instance_;
     godot::String library_mesh_;
     double smoothing_angle_ = 0.0;  // (unit: radians)

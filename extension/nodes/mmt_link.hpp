@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "nodes/ghost_view.hpp"
-#include "nodes/network_conditions.hpp"
+#include "nodes/mmt_network_conditions.hpp"
+#include "nodes/mmt_tuning.hpp"
 #include "nodes/properties.hpp"
-#include "nodes/teleop_tuning.hpp"
 #include "world/model_error.hpp"
 #include "world/world_link.hpp"
 
@@ -117,8 +117,8 @@ private:
     ControlScheme control_ = ControlScheme::spring;
     Correction correction_ = Correction::stealthy_direction;
     double history_ = LinkPlan{}.history;  // (unit: seconds)
-    godot::Ref<NetworkConditions> conditions_;
-    godot::Ref<TeleopTuning> tuning_;
+    godot::Ref<MMTNetworkConditions> conditions_;
+    godot::Ref<MMTTuning> tuning_;
     bool is_old_ = false;
     // What changes anew with the scenario: everything, or nothing.
     enum class Running : uint8_t { alone, bodies, robot };

@@ -15,7 +15,7 @@
 
 #include "nodes/body_reading.hpp"
 #include "nodes/conversions.hpp"
-#include "nodes/depth_sensor.hpp"
+#include "nodes/haptic_depth_sensor.hpp"
 #include "nodes/haptic_effect.hpp"
 #include "nodes/haptic_material.hpp"
 #include "nodes/haptic_mesh.hpp"
@@ -151,7 +151,7 @@ bool needs_no_bodies(const Node& node) {
     if (Object::cast_to<HapticEffect>(&node) != nullptr) {
         return true;
     }
-    const auto* sensor = Object::cast_to<DepthSensor>(&node);
+    const auto* sensor = Object::cast_to<HapticDepthSensor>(&node);
     return sensor != nullptr && sensor->makes_bodies();
 }
 

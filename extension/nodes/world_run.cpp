@@ -7,8 +7,8 @@
 #include "core/haptics/touch_values.hpp"
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_effect.hpp"
-#include "nodes/haptic_feedback.hpp"
 #include "nodes/haptic_recorder.hpp"
+#include "nodes/haptic_vibration_sound.hpp"
 #include "nodes/haptic_world.hpp"
 #include "nodes/mmt_link.hpp"
 #include "nodes/roll.hpp"
@@ -106,7 +106,7 @@ void WorldRun::synchronise(double seconds) {
     hands_->synchronise(session(), complaints_, !loop().is_real_time());
     look_at_scene();
     synchronise_recorders();
-    for (HapticFeedback* feedback : Roll<HapticFeedback>::all()) {
+    for (HapticVibrationSound* feedback : Roll<HapticVibrationSound>::all()) {
         if (!feedback->is_wanted()) {
             running_.listeners().end(session(), feedback->get_instance_id());
         } else if (HapticWorld::of(feedback) == &world_) {

@@ -65,7 +65,7 @@ func test_a_name_that_leads_out_of_the_library() -> void:
 
 func _with_field(values: PackedFloat32Array, size: Vector3i) -> StaticBody3D:
 	var body := _with_mesh(null)
-	var field := HapticField.new()
+	var field := HapticVolume.new()
 	field.values = values
 	field.size = size
 	(body.get_child(0) as HapticMesh).field = field

@@ -4,7 +4,7 @@ extends "test_case.gd"
 
 const ADDON := "res://addons/tactus"
 ## Nodes in space that have no extent of their own, or are not for the editor.
-const WITHOUT_EXTENT := ["HapticFeedback", "BodyWatch", "InputWatch"]
+const WITHOUT_EXTENT := ["HapticVibrationSound", "BodyWatch", "InputWatch"]
 
 static var _edited := 0
 
@@ -181,7 +181,7 @@ func test_points_of_paths_curves_and_guides_are_dragged() -> void:
 func test_a_tools_grasp_and_a_cameras_support_are_dragged() -> void:
 	var tool := HapticTool.new()
 	tool.mesh = BoxMesh.new()
-	var sensor := DepthSensor.new()
+	var sensor := HapticDepthSensor.new()
 	sensor.active = false
 	sensor.knows_support = true
 	sensor.position = Vector3(0, 0.7, 0)

@@ -4,8 +4,8 @@ extends "nodes_case.gd"
 const SIDE := 0.2
 
 
-func _filled(samples: int, value: Callable) -> HapticField:
-	var field := HapticField.new()
+func _filled(samples: int, value: Callable) -> HapticVolume:
+	var field := HapticVolume.new()
 	var step := SIDE / (samples - 1)
 	var values := PackedFloat32Array()
 	for z in samples:
@@ -18,11 +18,11 @@ func _filled(samples: int, value: Callable) -> HapticField:
 	return field
 
 
-func _ball(radius: float) -> HapticField:
+func _ball(radius: float) -> HapticVolume:
 	return _filled(24, func(p: Vector3) -> float: return p.length() - radius)
 
 
-func _body_of(field: HapticField, body: CollisionObject3D = StaticBody3D.new()) -> CollisionObject3D:
+func _body_of(field: HapticVolume, body: CollisionObject3D = StaticBody3D.new()) -> CollisionObject3D:
 	var touched := HapticMesh.new()
 	touched.name = "Touched"
 	touched.field = field
@@ -41,7 +41,7 @@ func test_a_field_is_touched_where_its_surface_is() -> void:
 
 
 func test_slices_of_densities_are_touched_as_they_look() -> void:
-	var field := HapticField.new()
+	var field := HapticVolume.new()
 	var slices: Array[Image] = []
 	for z in 12:
 		var slice := Image.create_empty(10, 11, false, Image.FORMAT_L8)
@@ -90,11 +90,11 @@ func test_a_field_that_changes_is_touched_anew() -> void:
 
 func test_what_is_no_field_is_said() -> void:
 	for case: Array in [
-		[func(f: HapticField) -> void: f.size = Vector3i.ZERO, "two samples along an axis"],
-		[func(f: HapticField) -> void: f.size = Vector3i(24, 24, 23), "its size asks for"],
-		[func(f: HapticField) -> void: f.voxel_size = Vector3(0.01, 0, 0.01), "not a positive length"],
-		[func(f: HapticField) -> void: f.iso_value = 9.0, "one side of the iso-value"],
-		[func(f: HapticField) -> void: f.values = PackedFloat32Array([1.0, NAN]), "has 2 values"]
+		[func(f: HapticVolume) -> void: f.size = Vector3i.ZERO, "two samples along an axis"],
+		[func(f: HapticVolume) -> void: f.size = Vector3i(24, 24, 23), "its size asks for"],
+		[func(f: HapticVolume) -> void: f.voxel_size = Vector3(0.01, 0, 0.01), "not a positive length"],
+		[func(f: HapticVolume) -> void: f.iso_value = 9.0, "one side of the iso-value"],
+		[func(f: HapticVolume) -> void: f.values = PackedFloat32Array([1.0, NAN]), "has 2 values"]
 	]:
 		var field := _ball(0.08)
 		case[0].call(field)
@@ -103,7 +103,7 @@ func test_what_is_no_field_is_said() -> void:
 
 
 func test_slices_of_different_sizes_are_said() -> void:
-	var field := HapticField.new()
+	var field := HapticVolume.new()
 	field.slices = [
 		Image.create_empty(4, 4, false, Image.FORMAT_L8), Image.create_empty(4, 5, false, Image.FORMAT_L8)
 	]

@@ -194,17 +194,17 @@ func test_the_projects_limit_holds_for_every_device() -> void:
 	check(proxy.is_touching(), "it does not touch")
 
 
-func _tapping_world(floor_stiffness: float) -> HapticFeedback:
+func _tapping_world(floor_stiffness: float) -> HapticVibrationSound:
 	var world := add_world()
 	add_floor(world, floor_stiffness)
 	var tip := add_hand(world, path(Vector3(0, 0.045, 0), Vector3(0, 0.005, 0), 0.2))
-	var feedback := HapticFeedback.new()
+	var feedback := HapticVibrationSound.new()
 	feedback.steady_share = 0.0
 	tip.add_child(feedback)
 	return feedback
 
 
-func _strongest(feedback: HapticFeedback, seconds: float) -> Vector2:
+func _strongest(feedback: HapticVibrationSound, seconds: float) -> Vector2:
 	var strongest := Vector2.ZERO
 	for _i in roundi(seconds * 100.0):
 		var proxy: ProxyPointer = feedback.get_parent()
@@ -271,7 +271,7 @@ func test_more_listeners_than_there_is_room_for_are_told() -> void:
 	var feedback := _tapping_world(1000.0)
 	expect_error("eight recorders and feedbacks listen to this world already")
 	for _i in 8:
-		var other := HapticFeedback.new()
+		var other := HapticVibrationSound.new()
 		other.sound = false
 		feedback.get_parent().add_child(other)
 	await _strongest(feedback, 0.05)
@@ -279,9 +279,9 @@ func test_more_listeners_than_there_is_room_for_are_told() -> void:
 
 func test_feedback_that_is_off_is_given_no_ticks() -> void:
 	var feedback := _tapping_world(1000.0)
-	var others: Array[HapticFeedback] = []
+	var others: Array[HapticVibrationSound] = []
 	for _i in 8:
-		var other := HapticFeedback.new()
+		var other := HapticVibrationSound.new()
 		other.sound = false
 		other.vibration = false
 		feedback.get_parent().add_child(other)
@@ -304,7 +304,7 @@ func _the_mixer_is_done() -> void:
 
 func test_feedback_without_a_proxy_says_so() -> void:
 	var world := add_world()
-	var feedback := HapticFeedback.new()
+	var feedback := HapticVibrationSound.new()
 	world.add_child(feedback)
 	expect_error("there is no ProxyPointer in its world")
 	await frames(2)

@@ -14,8 +14,8 @@ func _link(world: HapticWorld, side: MMTLink.Side, scenario: MMTLink.Scenario) -
 	link.name = "Link"
 	link.side = side
 	link.scenario = scenario
-	link.conditions = NetworkConditions.new()
-	link.tuning = TeleopTuning.new()
+	link.conditions = MMTNetworkConditions.new()
+	link.tuning = MMTTuning.new()
 	world.add_child(link)
 	return link
 

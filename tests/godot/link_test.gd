@@ -128,8 +128,8 @@ func test_every_property_may_change_while_a_body_is_pressed() -> void:
 
 func test_bad_values_are_refused_and_the_old_ones_stay() -> void:
 	var link := MMTLink.new()
-	link.conditions = NetworkConditions.new()
-	link.tuning = TeleopTuning.new()
+	link.conditions = MMTNetworkConditions.new()
+	link.tuning = MMTTuning.new()
 	add_child(link)
 	for wrong: Array in [
 		["conditions:delay", -1.0],
@@ -155,7 +155,7 @@ func test_bad_values_are_refused_and_the_old_ones_stay() -> void:
 		expect_error("%s = %s was refused" % [wrong[0].get_slice(":", wrong[0].count(":")), wrong[1]])
 		link.set_indexed(wrong[0], wrong[1])
 		check(link.get_indexed(wrong[0]) == before, "%s took %s" % wrong)
-	link.conditions.jitter_shape = NetworkConditions.JITTER_TRACE
+	link.conditions.jitter_shape = MMTNetworkConditions.JITTER_TRACE
 	link.conditions.trace_file = "res://nothing.txt"
 	check(link.get_warnings()[-1].contains("there is no file"), "no warning about the trace")
 	link.queue_free()
@@ -178,12 +178,12 @@ func test_a_scene_from_before_conditions_and_tuning_still_loads() -> void:
 		link.set(old[0], old[1])
 	check_near(link.conditions.delay, 0.02, 0.0, "delay")
 	check_equal(link.conditions.seed, 7, "seed")
-	check_equal(link.conditions.jitter_shape, NetworkConditions.JITTER_HEAVY_TAIL, "shape of the jitter")
+	check_equal(link.conditions.jitter_shape, MMTNetworkConditions.JITTER_HEAVY_TAIL, "shape of the jitter")
 	check_equal(link.conditions.trace_file, "res://nothing.txt", "trace")
 	check_equal(link.tuning.state_interval, 3, "state interval")
 	check_near(link.tuning.stealth_max_offset, 0.25, 0.0, "longest offset")
 	check(link.tuning.deadband_enabled, "deadband")
-	check_equal(link.tuning.derivation, TeleopTuning.DERIVATION_VELOCITY, "derivation")
+	check_equal(link.tuning.derivation, MMTTuning.DERIVATION_VELOCITY, "derivation")
 	link.queue_free()
 
 
@@ -197,8 +197,8 @@ func test_links_share_their_conditions() -> void:
 	check_near(_here.get_statistics().round_trip_s, 0.1, 0.02, "round trip")
 	var seen := [0]
 	_here.tuning.changed.connect(func() -> void: seen[0] += 1)
-	_here.tuning.derivation = TeleopTuning.DERIVATION_VELOCITY
-	_here.tuning.derivation = TeleopTuning.DERIVATION_VELOCITY
+	_here.tuning.derivation = MMTTuning.DERIVATION_VELOCITY
+	_here.tuning.derivation = MMTTuning.DERIVATION_VELOCITY
 	check_equal(seen[0], 1, "changes that were told")
 
 

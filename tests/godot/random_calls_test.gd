@@ -12,10 +12,10 @@ const CLASSES: Array[String] = [
 	"MMTLink",
 	"HapticMaterial",
 	"HapticPath",
-	"HapticField",
+	"HapticVolume",
 	"HapticGuide",
-	"NetworkConditions",
-	"TeleopTuning"
+	"MMTNetworkConditions",
+	"MMTTuning"
 ]
 const FLOATS: Array[float] = [
 	0.0, -0.0, 1.0, -1.0, 0.01, 0.5, 3.0, 100.0, 1e-9, 1e6, 1e20, 1e300, -1e300, INF, -INF, NAN

@@ -2,7 +2,7 @@ extends "nodes_case.gd"
 ## Code examples of the class reference: each compiles, and those that stand alone do what they show.
 
 ## What an example needs that a machine may not have: it is compiled alone.
-const COMPILED_ONLY := [&"DepthSensor"]
+const COMPILED_ONLY := [&"HapticDepthSensor"]
 const INPUTS := "user://run/inputs.tactus"
 
 
@@ -143,11 +143,11 @@ func _added(scene: Node, parent: String, type: String) -> Node:
 	return scene.get_node(parent).find_children("*", type, false, false).back()
 
 
-func _shows_haptic_feedback(scene: Node) -> bool:
-	return _added(scene, "World/Pointer", "HapticFeedback").full_force == 1.5
+func _shows_haptic_vibration_sound(scene: Node) -> bool:
+	return _added(scene, "World/Pointer", "HapticVibrationSound").full_force == 1.5
 
 
-func _shows_haptic_field(scene: Node) -> bool:
+func _shows_haptic_volume(scene: Node) -> bool:
 	return scene.triangles > 1000
 
 
@@ -189,9 +189,9 @@ func _shows_mmt_link(scene: Node) -> bool:
 	return _added(scene, "World", "MMTLink").scenario == MMTLink.SCENARIO_MMT
 
 
-func _shows_network_conditions(scene: Node) -> bool:
+func _shows_mmt_network_conditions(scene: Node) -> bool:
 	return scene.get_node("World/Link").conditions.delay == 0.05
 
 
-func _shows_teleop_tuning(scene: Node) -> bool:
+func _shows_mmt_tuning(scene: Node) -> bool:
 	return scene.get_node("World/Link").tuning.deadband_enabled

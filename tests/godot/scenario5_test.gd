@@ -42,7 +42,7 @@ func _knows_all() -> bool:
 
 func test_what_the_camera_finds_is_what_the_operator_touches() -> void:
 	_start()
-	var sensor: DepthSensor = _scene.get_node("Far/DepthSensor")
+	var sensor: HapticDepthSensor = _scene.get_node("Far/DepthSensor")
 	check(
 		await until(func() -> bool: return sensor.get_objects().size() >= 2, 60.0),
 		"it says: %s, and has %s" % [sensor.get_state_text(), sensor.get_objects()]

@@ -26,10 +26,10 @@ func _slab(size: Vector3) -> BoxMesh:
 
 
 ## A table with the named meshes on it, seen from 0.85 m above and before it. Not yet in the tree.
-func _sensor(parent: Node) -> DepthSensor:
-	var sensor := DepthSensor.new()
+func _sensor(parent: Node) -> HapticDepthSensor:
+	var sensor := HapticDepthSensor.new()
 	sensor.name = "DepthSensor"
-	sensor.source = DepthSensor.SOURCE_SYNTHETIC
+	sensor.source = HapticDepthSensor.SOURCE_SYNTHETIC
 	sensor.synthetic_scene = NodePath("../Table")
 	sensor.meshes = PackedStringArray(["cube"])
 	sensor.position = Vector3(0, 0.7, 0.48)
@@ -39,13 +39,13 @@ func _sensor(parent: Node) -> DepthSensor:
 	return sensor
 
 
-func _sees(sensor: DepthSensor) -> bool:
-	return await until(func() -> bool: return sensor.get_state() == DepthSensor.STATE_SEEING, 60.0)
+func _sees(sensor: HapticDepthSensor) -> bool:
+	return await until(func() -> bool: return sensor.get_state() == HapticDepthSensor.STATE_SEEING, 60.0)
 
 
 func test_nothing_of_it_is_loaded_until_a_sensor_looks() -> void:
 	for library: String in ["OpenNI2", "pcl_", "libtactus_sensing"]:
-		check(not _is_loaded(library), "%s is there without a DepthSensor" % library)
+		check(not _is_loaded(library), "%s is there without a HapticDepthSensor" % library)
 	var sensor := _sensor(self)
 	sensor.active = false
 	add_child(sensor)
@@ -84,7 +84,7 @@ func test_an_unplugged_camera_is_a_state_and_comes_back() -> void:
 	sensor.state_changed.connect(func(_state: int, text: String) -> void: said.append(text))
 	sensor.set_plugged(false)
 	check(
-		await until(func() -> bool: return sensor.get_state() == DepthSensor.STATE_OPENING, 60.0),
+		await until(func() -> bool: return sensor.get_state() == HapticDepthSensor.STATE_OPENING, 60.0),
 		"without a plug it says: %s" % sensor.get_state_text()
 	)
 	check(sensor.get_statistics().points > 0, "the last good image is gone")
@@ -93,7 +93,7 @@ func test_an_unplugged_camera_is_a_state_and_comes_back() -> void:
 	check(said.any(func(text: String) -> bool: return "plug it in again" in text), "it said: %s" % [said])
 
 
-func _named(sensor: DepthSensor, mesh: String) -> Dictionary:
+func _named(sensor: HapticDepthSensor, mesh: String) -> Dictionary:
 	for object in sensor.get_objects():
 		if object.name == mesh and object.state != "lost":
 			return object
@@ -146,7 +146,7 @@ func test_what_was_recorded_is_seen_again() -> void:
 	sensor.images_path = file
 	_drawn(HapticMesh.create_library_mesh("bracket"), Vector3(-0.12, 0.05, 0.02), get_node("Table"))
 	add_child(sensor)
-	var is_found := func(by: DepthSensor) -> bool: return _named(by, "bracket").size() > 0
+	var is_found := func(by: HapticDepthSensor) -> bool: return _named(by, "bracket").size() > 0
 	check(await until(is_found.bind(sensor), 60.0), "it says: %s" % sensor.get_state_text())
 	var place: Transform3D = _named(sensor, "bracket").transform
 	await frames(30)
@@ -154,7 +154,7 @@ func test_what_was_recorded_is_seen_again() -> void:
 	get_node("Table").free()
 	sensor = _sensor(self)
 	sensor.meshes = PackedStringArray(["bracket"])
-	sensor.source = DepthSensor.SOURCE_RECORDING
+	sensor.source = HapticDepthSensor.SOURCE_RECORDING
 	sensor.recording = file
 	add_child(sensor)
 	get_node("Table").free()
@@ -168,7 +168,7 @@ func test_what_is_found_can_be_touched() -> void:
 	var world := add_world()
 	var sensor := _sensor(world)
 	sensor.knows_support = true
-	sensor.bodies = DepthSensor.BODIES_HELD
+	sensor.bodies = HapticDepthSensor.BODIES_HELD
 	_drawn(HapticMesh.create_library_mesh("cube"), Vector3(0, 0.06, 0), world.get_node("Table"))
 	world.add_child(sensor)
 	check(
@@ -185,9 +185,9 @@ func test_what_is_found_can_be_touched() -> void:
 
 
 ## A cube that is touched from above with more than a newton; the world is not yet in real time.
-func _touched_cube(world: HapticWorld, sensor: DepthSensor) -> MeshInstance3D:
+func _touched_cube(world: HapticWorld, sensor: HapticDepthSensor) -> MeshInstance3D:
 	sensor.knows_support = true
-	sensor.bodies = DepthSensor.BODIES_HELD
+	sensor.bodies = HapticDepthSensor.BODIES_HELD
 	var mesh := HapticMesh.create_library_mesh("cube")
 	var cube := _drawn(mesh, Vector3(0, 0.06, 0), world.get_node("Table"))
 	world.add_child(sensor)
@@ -200,7 +200,7 @@ func _touched_cube(world: HapticWorld, sensor: DepthSensor) -> MeshInstance3D:
 
 
 ## It is seen 4 mm higher, as where the camera was calibrated anew, and back. `tick` is called in each frame.
-func _see_elsewhere(sensor: DepthSensor, cube: MeshInstance3D, tick: Callable) -> void:
+func _see_elsewhere(sensor: HapticDepthSensor, cube: MeshInstance3D, tick: Callable) -> void:
 	var height := func() -> float: return _named(sensor, "cube").transform.origin.y
 	var seen: float = height.call()
 	for up: float in [0.004, -0.004]:
@@ -258,7 +258,7 @@ func test_nor_is_it_in_real_time() -> void:
 
 
 func test_every_source_that_is_not_there_says_what_to_do() -> void:
-	var sensor := DepthSensor.new()
+	var sensor := HapticDepthSensor.new()
 	add_child(sensor)
 	check(
 		await until(func() -> bool: return "plug one in" in sensor.get_state_text(), 60.0),
@@ -269,7 +269,7 @@ func test_every_source_that_is_not_there_says_what_to_do() -> void:
 		await until(func() -> bool: return "there is no camera '1d27" in sensor.get_state_text(), 60.0),
 		"without that camera it says: %s" % sensor.get_state_text()
 	)
-	sensor.source = DepthSensor.SOURCE_RECORDING
+	sensor.source = HapticDepthSensor.SOURCE_RECORDING
 	check("set 'recording'" in sensor.get_state_text(), "it says: %s" % sensor.get_state_text())
 	check(sensor.get_warnings().size() > 0, "no warning")
 	sensor.recording = "user://nowhere.oni"
@@ -297,11 +297,11 @@ func test_an_empty_scene_is_said_to_be_empty() -> void:
 
 
 func test_cameras_are_found_by_name() -> void:
-	check_equal(DepthSensor.find_cameras(), {}, "cameras on a machine without any")
+	check_equal(HapticDepthSensor.find_cameras(), {}, "cameras on a machine without any")
 
 
 ## Once the cloud can be touched: what appears around a hand lets it out.
-func _hand_on_cloud(world: HapticWorld, sensor: DepthSensor, top: float) -> ProxyPointer:
+func _hand_on_cloud(world: HapticWorld, sensor: HapticDepthSensor, top: float) -> ProxyPointer:
 	var is_there := func() -> bool:
 		if world.clock == HapticWorld.CLOCK_STEPPED:
 			world.advance(0.02)
@@ -319,7 +319,7 @@ func _rests_on(proxy: ProxyPointer, cube: Node3D) -> bool:
 	return proxy.is_touching() and absf(_height_over(proxy, cube) - 0.01) < 0.004
 
 
-func _check_touched(touches: Callable, proxy: ProxyPointer, sensor: DepthSensor) -> void:
+func _check_touched(touches: Callable, proxy: ProxyPointer, sensor: HapticDepthSensor) -> void:
 	check(
 		await until(touches, 60.0),
 		(
@@ -334,7 +334,7 @@ func test_a_cloud_is_touched_until_what_it_is_of_is_recognised() -> void:
 	var world := add_world()
 	var sensor := _sensor(world)
 	sensor.knows_support = true
-	sensor.bodies = DepthSensor.BODIES_HELD
+	sensor.bodies = HapticDepthSensor.BODIES_HELD
 	sensor.touch_cloud = true
 	sensor.meshes = PackedStringArray(["torus"])
 	var cube := _drawn(HapticMesh.create_library_mesh("cube"), Vector3(0, 0.06, 0), world.get_node("Table"))

@@ -173,10 +173,10 @@ func _link() -> void:
 		link.name = "Link"
 		link.side = MMTLink.SIDE_OPERATOR if which == 0 else MMTLink.SIDE_TELEOPERATOR
 		link.scenario = MMTLink.SCENARIO_MMT if _chance.randi() % 3 > 0 else MMTLink.SCENARIO_TRADITIONAL
-		link.conditions = NetworkConditions.new()
+		link.conditions = MMTNetworkConditions.new()
 		link.conditions.delay = _chance.randf_range(0.0, 0.05)
 		link.conditions.loss = 0.02
-		link.tuning = TeleopTuning.new()
+		link.tuning = MMTTuning.new()
 		_worlds[which].add_child(link)
 		_links.append(link)
 	_links[1].scenario = _links[0].scenario

@@ -48,7 +48,7 @@ def test_statistics_are_keys_in_code_and_lines_in_the_help():
 
 
 def test_a_range_is_said_with_its_unit():
-    table = next(table for table in TABLES if table.name == "NetworkConditions")
+    table = next(table for table in TABLES if table.name == "MMTNetworkConditions")
     assert "[b]Range:[/b] 0 to 10 s." in table.help().decode()
 
 

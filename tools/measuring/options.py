@@ -13,7 +13,7 @@ from typing import Any, TypeVar, get_args, get_origin
 Options = TypeVar("Options")
 Known = Iterable[str] | Callable[[], Iterable[str]]
 
-# The longest that anything is delayed (ms), as in NetworkConditions, and the longest that anything is played (s).
+# The longest that anything is delayed (ms), as in MMTNetworkConditions, and the longest that anything is played (s).
 LONGEST_DELAY_MS, LONGEST_S = 10_000.0, 100_000.0
 # Every whole number up to here is a double of its own, as the words of tests/shared/teleop_words.cpp need.
 LARGEST_SEED = 2**53

@@ -17,12 +17,12 @@ const CORRECTIONS := {
 	"Carried: turn": MMTLink.CORRECTION_STEALTHY_TURN,
 }
 const DERIVATIONS := {
-	"What was true": TeleopTuning.DERIVATION_NONE,
-	"Velocity (eq. 3.1)": TeleopTuning.DERIVATION_VELOCITY,
-	"Acceleration": TeleopTuning.DERIVATION_ACCELERATION,
-	"Averaged velocity": TeleopTuning.DERIVATION_AVERAGED,
-	"Model's history": TeleopTuning.DERIVATION_HISTORY,
-	"Re-simulation": TeleopTuning.DERIVATION_RESIMULATE,
+	"What was true": MMTTuning.DERIVATION_NONE,
+	"Velocity (eq. 3.1)": MMTTuning.DERIVATION_VELOCITY,
+	"Acceleration": MMTTuning.DERIVATION_ACCELERATION,
+	"Averaged velocity": MMTTuning.DERIVATION_AVERAGED,
+	"Model's history": MMTTuning.DERIVATION_HISTORY,
+	"Re-simulation": MMTTuning.DERIVATION_RESIMULATE,
 }
 const CONTROLS := {
 	"Spring": MMTLink.CONTROL_SPRING,

@@ -27,7 +27,7 @@ func _ready() -> void:
 				var p := Vector3(x, y, z) * step - Vector3.ONE * 0.5 * side
 				values[i] = _maze(p) if form == Form.MAZE else _lump(p)
 				i += 1
-	field = HapticField.new()
+	field = HapticVolume.new()
 	field.size = Vector3i.ONE * samples
 	field.voxel_size = Vector3.ONE * step
 	field.values = values

@@ -37,7 +37,7 @@ func _ready() -> void:
 	# Where there is no loudspeaker nobody hears it.
 	if AudioServer.get_driver_name() != "Dummy":
 		for proxy in world.find_children("*", "ProxyPointer", true, false):
-			proxy.add_child(HapticFeedback.new())
+			proxy.add_child(HapticVibrationSound.new())
 
 
 func _give_hands(to_person: bool) -> void:

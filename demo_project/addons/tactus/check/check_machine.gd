@@ -96,5 +96,5 @@ func _of_devices() -> PackedStringArray:
 
 
 func _cameras() -> String:
-	var found := DepthSensor.find_cameras()
+	var found := HapticDepthSensor.find_cameras()
 	return "none found" if found.is_empty() else ", ".join(found.keys())

@@ -1,6 +1,6 @@
 @tool
 extends "grip_gizmos.gd"
-## Of a DepthSensor: what it sees, and how high the support is.
+## Of a HapticDepthSensor: what it sees, and how high the support is.
 @warning_ignore_start("inferred_declaration", "untyped_declaration", "return_value_discarded", "unsafe_cast")
 @warning_ignore_start("unsafe_method_access", "unsafe_property_access", "unsafe_call_argument")
 
@@ -13,11 +13,11 @@ const SUPPORT := 0.3  # half of what is drawn of the support, metres
 
 
 func _class_name() -> String:
-	return "DepthSensor"
+	return "HapticDepthSensor"
 
 
 func lines(node: Node3D) -> PackedVector3Array:
-	var sensor := node as DepthSensor
+	var sensor := node as HapticDepthSensor
 	var half := tan(0.5 * FIELD_OF_VIEW) * Vector2(1.0, ASPECT)
 	var corners := [
 		Vector3(-half.x, -half.y, -1),
@@ -37,7 +37,7 @@ func lines(node: Node3D) -> PackedVector3Array:
 
 
 ## Below the middle of what is seen.
-func _support(sensor: DepthSensor) -> PackedVector3Array:
+func _support(sensor: HapticDepthSensor) -> PackedVector3Array:
 	var into_node := sensor.global_transform.affine_inverse()
 	var middle := _middle(sensor)
 	var square := PackedVector3Array()
@@ -48,14 +48,14 @@ func _support(sensor: DepthSensor) -> PackedVector3Array:
 	return polyline(square)
 
 
-func _middle(sensor: DepthSensor) -> Vector3:
+func _middle(sensor: HapticDepthSensor) -> Vector3:
 	var level := Plane(Vector3.UP, sensor.support_height)
 	var at: Variant = level.intersects_ray(sensor.global_position, -sensor.global_basis.z)
 	return level.project(sensor.global_position) if at == null else at
 
 
 func grips(node: Node3D) -> Array:
-	var sensor := node as DepthSensor
+	var sensor := node as HapticDepthSensor
 	if not sensor.knows_support:
 		return []
 	var into_node := sensor.global_transform.affine_inverse()

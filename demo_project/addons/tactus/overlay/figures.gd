@@ -4,7 +4,7 @@ extends RefCounted
 @warning_ignore_start("inferred_declaration", "untyped_declaration", "return_value_discarded", "unsafe_cast")
 @warning_ignore_start("unsafe_method_access", "unsafe_property_access", "unsafe_call_argument")
 
-const KINDS := ["HapticWorld", "MMTLink", "HapticDevice", "ProxyPointer", "DepthSensor"]
+const KINDS := ["HapticWorld", "MMTLink", "HapticDevice", "ProxyPointer", "HapticDepthSensor"]
 ## Nodes are looked for this often, in milliseconds; looking through a large tree takes a while.
 const SEARCH_EVERY := 1000
 ## Bins of the histogram of periods, in shares of the period that is wanted: 0.5 to 1.5.
@@ -24,7 +24,7 @@ func of(tree: SceneTree) -> Dictionary:
 		"links": _each("MMTLink", _of_link),
 		"devices": _each("HapticDevice", _of_device),
 		"pointers": _each("ProxyPointer", _of_pointer),
-		"sensors": _each("DepthSensor", _of_sensor),
+		"sensors": _each("HapticDepthSensor", _of_sensor),
 	}
 
 
@@ -100,7 +100,7 @@ func _of_pointer(pointer: ProxyPointer) -> Dictionary:
 	}
 
 
-func _of_sensor(sensor: DepthSensor) -> Dictionary:
+func _of_sensor(sensor: HapticDepthSensor) -> Dictionary:
 	return {
 		"text": sensor.get_state_text(),
 		"frame_ms": sensor.frame_ms,

@@ -1,4 +1,4 @@
-#include "nodes/depth_sensor.hpp"
+#include "nodes/haptic_depth_sensor.hpp"
 
 #include <algorithm>
 #include <godot_cpp/classes/file_access.hpp>
@@ -31,26 +31,26 @@ constexpr int after_worlds = 1;
 
 // --- properties
 
-void DepthSensor::source_changed() {
+void HapticDepthSensor::source_changed() {
     notify_property_list_changed();
     update_configuration_warnings();
     end();
     begin();
 }
 
-void DepthSensor::library_changed() {
+void HapticDepthSensor::library_changed() {
     update_configuration_warnings();
     if (sensor_ != nullptr) {
         pass_on_library();
     }
 }
 
-void DepthSensor::pictures_changed() {
+void HapticDepthSensor::pictures_changed() {
     pass_on_settings();
     show();
 }
 
-void DepthSensor::show() {
+void HapticDepthSensor::show() {
     if (sensor_ != nullptr) {
         SeenBodies::Looks looks = looks_;
         looks.touch_cloud = touches_cloud();
@@ -58,7 +58,7 @@ void DepthSensor::show() {
     }
 }
 
-String DepthSensor::problem() const {
+String HapticDepthSensor::problem() const {
     if (source_ == SOURCE_RECORDING && recording_.is_empty()) {
         return "it plays a recording and there is none: set 'recording' to an .oni file, or choose a camera";
     }
@@ -76,7 +76,7 @@ String DepthSensor::problem() const {
 }
 
 // What is found is to be touched.
-String DepthSensor::problem_of_touch() const {
+String HapticDepthSensor::problem_of_touch() const {
     const HapticWorld* const world = HapticWorld::above(this);
     if (world == nullptr) {
         return "what it finds cannot be touched outside of a HapticWorld: put it below one, or set 'bodies' "
@@ -94,31 +94,31 @@ String DepthSensor::problem_of_touch() const {
                : to_godot(library_.error());
 }
 
-bool DepthSensor::touches_cloud() const {
+bool HapticDepthSensor::touches_cloud() const {
     const HapticWorld* const world = looks_.touch_cloud ? HapticWorld::above(this) : nullptr;
     return world != nullptr && MMTLink::of(*world).empty();
 }
 
 // --- looking
 
-const Sight& DepthSensor::sight() const {
+const Sight& HapticDepthSensor::sight() const {
     static const Sight nothing;
     return sensor_ != nullptr ? sensor_->sight() : nothing;
 }
 
-double DepthSensor::age() const {
+double HapticDepthSensor::age() const {
     return std::clamp(to_seconds(monotonic_now() - sight().seen_at), 0.0, longest_guess);
 }
 
 // The rest of the scene, which a synthetic camera looks at, may not be there yet.
-void DepthSensor::begin() {
+void HapticDepthSensor::begin() {
     if (!is_edited()) {
         set_process_priority(after_worlds);
         set_process_internal(active_ && is_inside_tree());
     }
 }
 
-void DepthSensor::make_sensor() {
+void HapticDepthSensor::make_sensor() {
     const DepthSensing* const sensing = depth_sensing(load_error_);
     if (sensing != nullptr) {
         sensor_.reset(sensing->make_sensor());
@@ -132,7 +132,7 @@ void DepthSensor::make_sensor() {
     open();
 }
 
-void DepthSensor::open() {
+void HapticDepthSensor::open() {
     if (!problem().is_empty()) {
         sensor_->close();
         return;
@@ -165,7 +165,7 @@ void DepthSensor::open() {
     sensor_->open(choice);
 }
 
-void DepthSensor::pass_on_library() {
+void HapticDepthSensor::pass_on_library() {
     library_ = {};
     const PackedStringArray names = meshes_.is_empty() ? mesh_library_names() : meshes_;
     for (int64_t i = 0; i < names.size(); ++i) {
@@ -175,7 +175,7 @@ void DepthSensor::pass_on_library() {
     sensor_->set_library(library_.known());
 }
 
-void DepthSensor::pass_on_settings() {
+void HapticDepthSensor::pass_on_settings() {
     if (sensor_ == nullptr) {
         return;
     }
@@ -186,7 +186,7 @@ void DepthSensor::pass_on_settings() {
     sensor_->set_settings(settings_);
 }
 
-void DepthSensor::end() {
+void HapticDepthSensor::end() {
     sensor_.reset();
     load_error_.clear();
     view_.end();
@@ -197,7 +197,7 @@ void DepthSensor::end() {
     set_process_internal(false);
 }
 
-void DepthSensor::look() {
+void HapticDepthSensor::look() {
     if (sensor_ == nullptr && load_error_.empty()) {
         make_sensor();
     }
@@ -218,7 +218,7 @@ void DepthSensor::look() {
 }
 
 // Signals for what has changed since the last frame.
-void DepthSensor::tell(bool is_new) {
+void HapticDepthSensor::tell(bool is_new) {
     const Sight& now = sight();
     if (told_state_ != now.state || told_text_ != now.text) {
         told_state_ = now.state;
@@ -247,7 +247,7 @@ void DepthSensor::tell(bool is_new) {
 
 // --- what it says
 
-String DepthSensor::get_state_text() const {
+String HapticDepthSensor::get_state_text() const {
     if (const String wrong = problem(); !wrong.is_empty()) {
         return wrong;
     }
@@ -261,7 +261,7 @@ String DepthSensor::get_state_text() const {
                               : String("it begins with the next frame of the scene");
 }
 
-Dictionary DepthSensor::describe(const SightedObject& object) const {
+Dictionary HapticDepthSensor::describe(const SightedObject& object) const {
     Dictionary d;
     d["id"] = static_cast<int64_t>(object.id);
     d["name"] = to_godot(library_.name_of(object.mesh));
@@ -278,7 +278,7 @@ Dictionary DepthSensor::describe(const SightedObject& object) const {
     return d;
 }
 
-TypedArray<Dictionary> DepthSensor::get_objects() const {
+TypedArray<Dictionary> HapticDepthSensor::get_objects() const {
     TypedArray<Dictionary> objects;
     for (const SightedObject& object : sight().objects) {
         objects.push_back(describe(object));
@@ -286,7 +286,7 @@ TypedArray<Dictionary> DepthSensor::get_objects() const {
     return objects;
 }
 
-Dictionary DepthSensor::get_plane() const {
+Dictionary HapticDepthSensor::get_plane() const {
     Dictionary d;
     if (const SupportPlane& plane = sight().plane; plane.is_found) {
         d["normal"] = to_godot(plane.normal);
@@ -296,21 +296,22 @@ Dictionary DepthSensor::get_plane() const {
     return d;
 }
 
-Dictionary DepthSensor::find_cameras() {
+Dictionary HapticDepthSensor::find_cameras() {
     Dictionary cameras;
     std::string error;
     for (const FoundCamera& one : found_cameras(error)) {
         cameras[String::utf8(one.uri.data())] = String::utf8(one.name.data());
     }
     if (!error.empty()) {
-        UtilityFunctions::push_warning("DepthSensor: ", to_godot(error), ".");
+        UtilityFunctions::push_warning("HapticDepthSensor: ", to_godot(error), ".");
     }
     return cameras;
 }
 
 // --- where the camera is
 
-double DepthSensor::stand_at(const std::optional<Pose>& camera, double residual, const String& why_not) {
+double HapticDepthSensor::stand_at(const std::optional<Pose>& camera, double residual,
+                                   const String& why_not) {
     if (!camera) {
         UtilityFunctions::push_warning(name_of(*this), ": ", why_not);
         return never;
@@ -320,13 +321,13 @@ double DepthSensor::stand_at(const std::optional<Pose>& camera, double residual,
     return calibration_residual_ = residual;
 }
 
-double DepthSensor::calibrate_from_plane(double height) {
+double HapticDepthSensor::calibrate_from_plane(double height) {
     return stand_at(camera_over_plane(sight(), height), sight().plane.residual,
                     "no plane is seen that could be calibrated by: let the camera see the table, and little "
                     "else, and try again.");
 }
 
-double DepthSensor::calibrate_from_object(int64_t id, const Transform3D& place) {
+double HapticDepthSensor::calibrate_from_object(int64_t id, const Transform3D& place) {
     const auto known = static_cast<std::uint64_t>(id);
     const SightedObject* const object = object_of(sight(), known);
     return stand_at(place.is_finite() ? camera_by_object(sight(), known, pose_of(place)) : std::nullopt,
@@ -337,13 +338,13 @@ double DepthSensor::calibrate_from_object(int64_t id, const Transform3D& place) 
 
 // --- Godot
 
-PackedStringArray DepthSensor::_get_configuration_warnings() const {
+PackedStringArray HapticDepthSensor::_get_configuration_warnings() const {
     PackedStringArray warnings;
-    warn(warnings, "This DepthSensor sees nothing", problem());
+    warn(warnings, "This HapticDepthSensor sees nothing", problem());
     return warnings;
 }
 
-void DepthSensor::_notification(int what) {
+void HapticDepthSensor::_notification(int what) {
     if (what == NOTIFICATION_ENTER_TREE) {
         // Only what is to be touched needs a world.
         if (is_edited() || makes_bodies()) {

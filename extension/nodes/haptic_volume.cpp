@@ -1,4 +1,4 @@
-#include "nodes/haptic_field.hpp"
+#include "nodes/haptic_volume.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -24,13 +24,13 @@ std::uint32_t as_count(int64_t number) {
 
 }  // namespace
 
-void HapticField::samples_changed() {
+void HapticVolume::samples_changed() {
     surface_.forget();
     emit_changed();
 }
 
 // A slice that is no image, or of another size than the first, leaves too few values, which is then said.
-HapticField::Samples HapticField::samples() const {
+HapticVolume::Samples HapticVolume::samples() const {
     if (!values_.is_empty() || slices_.is_empty()) {
         return {values_, {as_count(size_.x), as_count(size_.y), as_count(size_.z)}};
     }
@@ -54,7 +54,7 @@ HapticField::Samples HapticField::samples() const {
     return samples;
 }
 
-std::shared_ptr<TriangleSource> HapticField::surface() const {
+std::shared_ptr<TriangleSource> HapticVolume::surface() const {
     if (surface_.get() == nullptr) {
         const Samples taken = samples();
         auto read = [taken, spacing = voxel_size_, iso = iso_value_, above = solid_above_] {
@@ -69,11 +69,11 @@ std::shared_ptr<TriangleSource> HapticField::surface() const {
     return surface_.get();
 }
 
-String HapticField::get_problem() const {
+String HapticVolume::get_problem() const {
     return to_godot(surface()->triangles().error);
 }
 
-Ref<ArrayMesh> HapticField::create_mesh() const {
+Ref<ArrayMesh> HapticVolume::create_mesh() const {
     const TriangleSource::Checked& triangles = surface()->triangles();
     return drawn_mesh(triangles.mesh != nullptr ? Drawing{*triangles.mesh, round_crease} : Drawing{});
 }

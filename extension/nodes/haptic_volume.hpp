@@ -15,11 +15,11 @@
 namespace tactus {
 
 // A volume of samples that is touched where it has one value.
-class HapticField : public godot::Resource {
-    GDCLASS(HapticField, godot::Resource)
+class HapticVolume : public godot::Resource {
+    GDCLASS(HapticVolume, godot::Resource)
 
 public:
-    TACTUS_PROPERTIES(HapticField)
+    TACTUS_PROPERTIES(HapticVolume)
 
     godot::String get_problem() const;
     godot::Ref<godot::ArrayMesh> create_mesh() const;

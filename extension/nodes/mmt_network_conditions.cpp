@@ -1,4 +1,4 @@
-#include "nodes/network_conditions.hpp"
+#include "nodes/mmt_network_conditions.hpp"
 
 #include <godot_cpp/classes/file_access.hpp>
 
@@ -8,7 +8,7 @@ namespace tactus {
 
 using namespace godot;
 
-void NetworkConditions::set_trace_file(const String& path) {
+void MMTNetworkConditions::set_trace_file(const String& path) {
     trace_file_ = path;
     trace_.reset();
     trace_error_ = String();
@@ -26,7 +26,7 @@ void NetworkConditions::set_trace_file(const String& path) {
     emit_changed();
 }
 
-LinkConditions NetworkConditions::conditions() const {
+LinkConditions MMTNetworkConditions::conditions() const {
     LinkConditions conditions = values_.link;
     conditions.trace = trace_.get();
     if (values_.burst_loss > 0.0) {
@@ -35,11 +35,11 @@ LinkConditions NetworkConditions::conditions() const {
     return conditions;
 }
 
-std::vector<std::string> NetworkConditions::notes() const {
+std::vector<std::string> MMTNetworkConditions::notes() const {
     return notes_on(conditions(), values_.burst_loss, values_.burst_length);
 }
 
-String NetworkConditions::trace_problem() const {
+String MMTNetworkConditions::trace_problem() const {
     if (values_.link.shape != JitterShape::trace || trace_ != nullptr) {
         return String();
     }

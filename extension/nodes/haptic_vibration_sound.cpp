@@ -1,4 +1,4 @@
-#include "nodes/haptic_feedback.hpp"
+#include "nodes/haptic_vibration_sound.hpp"
 
 #include <algorithm>
 #include <godot_cpp/classes/audio_stream_generator.hpp>
@@ -35,18 +35,18 @@ constexpr double pulse_seconds = 0.1;
 
 }  // namespace
 
-HapticFeedback::HapticFeedback()
+HapticVibrationSound::HapticVibrationSound()
     : ring_(std::make_shared<TickRing>(ring_capacity)), feedback_(static_cast<double>(sound_rate)) {}
 
-const ProxyPointer* HapticFeedback::proxy_node() const {
+const ProxyPointer* HapticVibrationSound::proxy_node() const {
     return chosen_proxy(*this, proxy_);
 }
 
-String HapticFeedback::problem() const {
+String HapticVibrationSound::problem() const {
     return problem_of_proxy(*this, proxy_);
 }
 
-String HapticFeedback::get_state_text() const {
+String HapticVibrationSound::get_state_text() const {
     if (const String wrong = problem(); !wrong.is_empty()) {
         return wrong;
     }
@@ -58,21 +58,21 @@ String HapticFeedback::get_state_text() const {
     return vibration_ && !has_motor ? "working; no gamepad or controller is there to vibrate" : "working";
 }
 
-PackedStringArray HapticFeedback::_get_configuration_warnings() const {
+PackedStringArray HapticVibrationSound::_get_configuration_warnings() const {
     PackedStringArray warnings;
     if (is_inside_tree()) {
         for (const String& wrong : {problem(), problem_without_world(*this)}) {
-            warn(warnings, "This HapticFeedback is silent", wrong);
+            warn(warnings, "This HapticVibrationSound is silent", wrong);
         }
     }
     return warnings;
 }
 
-Vector2 HapticFeedback::get_motor_levels() const {
+Vector2 HapticVibrationSound::get_motor_levels() const {
     return {static_cast<real_t>(levels_.heavy), static_cast<real_t>(levels_.light)};
 }
 
-void HapticFeedback::drive_motors(const MotorLevels& levels) {
+void HapticVibrationSound::drive_motors(const MotorLevels& levels) {
     const bool was_still = levels_.heavy == 0.0 && levels_.light == 0.0;
     levels_ = levels;
     if (was_still && levels.heavy == 0.0 && levels.light == 0.0) {
@@ -91,7 +91,7 @@ void HapticFeedback::drive_motors(const MotorLevels& levels) {
 }
 
 // What finds no room is late already.
-void HapticFeedback::push_sound() {
+void HapticVibrationSound::push_sound() {
     const std::vector<float> samples = feedback_.take_samples();
     if (samples.empty() || !sound_) {
         return;
@@ -124,7 +124,7 @@ void HapticFeedback::push_sound() {
     }
 }
 
-void HapticFeedback::play() {
+void HapticVibrationSound::play() {
     ring_->drain([this](const SessionRecord& tick) {
         const bool touches = (tick.proxy_status & proxy_touching) != 0;
         const double depth = touches ? glm::distance(tick.hand, tick.proxy_position) : 0.0;
@@ -135,7 +135,7 @@ void HapticFeedback::play() {
     push_sound();
 }
 
-void HapticFeedback::fall_silent() {
+void HapticVibrationSound::fall_silent() {
     drive_motors({});
     if (player_ != nullptr) {
         player_->queue_free();
@@ -144,7 +144,7 @@ void HapticFeedback::fall_silent() {
     feedback_.fall_silent();
 }
 
-void HapticFeedback::_notification(int what) {
+void HapticVibrationSound::_notification(int what) {
     keep_roll(*this, what);
     if (is_edited()) {
         return;

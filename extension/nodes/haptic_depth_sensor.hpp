@@ -20,8 +20,8 @@ namespace tactus {
 // The eyes: a depth camera, or a recording of one, in; known objects with their poses out. Its transform is
 // where the camera is. What looks is a library of its own with a thread of its own
 // (core/ports/depth_sensing.hpp).
-class DepthSensor : public godot::Node3D {
-    GDCLASS(DepthSensor, godot::Node3D)
+class HapticDepthSensor : public godot::Node3D {
+    GDCLASS(HapticDepthSensor, godot::Node3D)
 
 public:
     enum Source : int64_t { SOURCE_CAMERA, SOURCE_RECORDING, SOURCE_SYNTHETIC };
@@ -33,7 +33,7 @@ public:
         STATE_ENDED = static_cast<int>(SensorState::ended),
     };
 
-    TACTUS_PROPERTIES(DepthSensor)
+    TACTUS_PROPERTIES(HapticDepthSensor)
 
     State get_state() const { return static_cast<State>(sight().state); }
     godot::String get_state_text() const;
@@ -106,4 +106,4 @@ private:
 
 }  // namespace tactus
 
-VARIANT_ENUM_CAST(tactus::DepthSensor::State);
+VARIANT_ENUM_CAST(tactus::HapticDepthSensor::State);

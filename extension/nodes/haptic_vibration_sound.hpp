@@ -15,13 +15,13 @@ class ProxyPointer;
 
 // What a hand without motors is given instead of a force: vibration and sound of what its proxy touches. The
 // loop puts every tick into a ring; each frame what is there drives a motor and a loudspeaker.
-class HapticFeedback : public godot::Node3D {
-    GDCLASS(HapticFeedback, godot::Node3D)
+class HapticVibrationSound : public godot::Node3D {
+    GDCLASS(HapticVibrationSound, godot::Node3D)
 
 public:
-    HapticFeedback();
+    HapticVibrationSound();
 
-    TACTUS_PROPERTIES(HapticFeedback)
+    TACTUS_PROPERTIES(HapticVibrationSound)
 
     godot::Vector2 get_motor_levels() const;
     godot::String get_state_text() const;

@@ -10,11 +10,11 @@ namespace tactus {
 
 // Everything about a teleoperation that can be turned, as a resource that links, scenes and experiments
 // share. What the link itself says (scenario, schemes, clock) is left as it is by default.
-class TeleopTuning : public godot::Resource {
-    GDCLASS(TeleopTuning, godot::Resource)
+class MMTTuning : public godot::Resource {
+    GDCLASS(MMTTuning, godot::Resource)
 
 public:
-    TACTUS_PROPERTIES(TeleopTuning)
+    TACTUS_PROPERTIES(MMTTuning)
 
     const TeleopSettings& settings() const { return values_; }
 

@@ -10,8 +10,8 @@
 namespace tactus {
 
 // An emulated network, as a resource that links, scenes and experiments share.
-class NetworkConditions : public godot::Resource {
-    GDCLASS(NetworkConditions, godot::Resource)
+class MMTNetworkConditions : public godot::Resource {
+    GDCLASS(MMTNetworkConditions, godot::Resource)
 
 public:
     struct Values {
@@ -21,7 +21,7 @@ public:
         ClockSkew skew;             // of this side's clock
         std::uint64_t seed = 1;
     };
-    TACTUS_PROPERTIES(NetworkConditions)
+    TACTUS_PROPERTIES(MMTNetworkConditions)
     void set_trace_file(const godot::String& path);
     godot::String get_trace_file() const { return trace_file_; }
 
