@@ -100,8 +100,9 @@ def class_reference(target):
     tables = [bind_classes.ClassTable(path) for path in sorted(Path("extension/doc_classes").glob("*.xml"))]
     if target != "template_debug" or not tables:
         return None
+    help_ = [table.help() for table in tables] + [table.old_help() for table in tables if table.old_name()]
     output = Path("build", target, "doc_data.cpp")
-    _write_if_changed(output, doc_data.doc_source([table.help() for table in tables]).encode())
+    _write_if_changed(output, doc_data.doc_source(help_).encode())
     return str(output)
 
 

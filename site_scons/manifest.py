@@ -6,6 +6,7 @@ load it: `compatibility_minimum` is that API's version.
 
 import json
 import re
+import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 ADDON = Path("demo_project/addons/tactus")  # in the clone
@@ -54,8 +55,15 @@ def text(minimum, precision, platforms, seeing=()):
             eyes = ", ".join(f'"bin/{library(platform, target, name)}": ""' for name in EYES)
             lines.append(f"{platform.system}.{feature}.{precision}.{platform.architecture} = {{{eyes}}}")
     lines += ["", "[icons]", ""]
-    lines += [f'{icon.stem} = "icons/{icon.name}"' for icon in sorted((CLONE / ADDON / "icons").glob("*.svg"))]
+    lines += [f'{name} = "icons/{icon.name}"' for icon in sorted((CLONE / ADDON / "icons").glob("*.svg")) for name in names(icon.stem)]
     return "\n".join(lines) + "\n"
+
+
+def names(class_name):
+    """The name of a class, and the one that it had (`was` in the class reference)."""
+    table = CLONE / "extension/doc_classes" / f"{class_name}.xml"
+    was = ElementTree.parse(table).getroot().get("was") if table.is_file() else None
+    return [class_name, was] if was else [class_name]
 
 
 def write(path, content):

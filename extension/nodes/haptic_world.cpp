@@ -99,14 +99,6 @@ void HapticWorld::gravity_changed() {
     }
 }
 
-bool HapticWorld::_set(const StringName& name, const Variant& value) {
-    const char* now = new_name_of<HapticWorld>("HapticWorld." + String(name));
-    if (now != nullptr) {
-        set(now, value);
-    }
-    return now != nullptr;
-}
-
 BodyDefaults HapticWorld::body_defaults() const {
     BodyDefaults defaults;
     defaults.linear_damping = project_number("physics/3d/default_linear_damp", defaults.linear_damping);

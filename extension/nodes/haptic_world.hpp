@@ -87,8 +87,6 @@ public:
 protected:
     static void _bind_methods();
     void _notification(int what);
-    // Properties of older scenes.
-    bool _set(const godot::StringName& name, const godot::Variant& value);
 
 private:
     // What a change of a property asks for. It is done at the beginning of the next frame, or of advance():

@@ -159,7 +159,8 @@ void MMTLink::set_model_errors(const Dictionary& errors) {
 
 template <class Values>
 bool MMTLink::take_old(const char* place, const Ref<Values>& own, const String& name, const Variant& value) {
-    const char* now = new_name_of<Values>("MMTLink." + name);
+    const std::string old = from_godot("MMTLink." + name);
+    const char* now = new_name_of<Values>(old);
     if (now == nullptr) {
         return false;
     }
@@ -167,11 +168,7 @@ bool MMTLink::take_old(const char* place, const Ref<Values>& own, const String& 
         set(place, memnew(Values));
     }
     own->set(now, value);
-    if (!std::exchange(is_old_, true)) {
-        UtilityFunctions::push_warning(name_of(*this), ": ", name, " is ", place, ".", now,
-                                       " now, and so have other properties. They were taken "
-                                       "over: save the scene to keep them there.");
-    }
+    warn_of_rename(old, std::string(place) + "." + now);
     return true;
 }
 

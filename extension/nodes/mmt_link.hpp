@@ -119,7 +119,6 @@ private:
     double history_ = LinkPlan{}.history;  // (unit: seconds)
     godot::Ref<MMTNetworkConditions> conditions_;
     godot::Ref<MMTTuning> tuning_;
-    bool is_old_ = false;
     // What changes anew with the scenario: everything, or nothing.
     enum class Running : uint8_t { alone, bodies, robot };
     Running running_ = Running::alone;

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <godot_cpp/classes/resource.hpp>
 #include <godot_cpp/variant/callable.hpp>
+#include <mutex>
+#include <unordered_set>
 
 #include "nodes/messages.hpp"
 
@@ -66,6 +68,17 @@ void follow_changes(Object& who, const char* method, const Variant& before, cons
     }
     if (auto* taken = Object::cast_to<Resource>(now.get_validated_object())) {
         taken->connect("changed", on_change);
+    }
+}
+
+void warn_of_rename(const std::string& old, const std::string& now) {
+    static std::mutex lock;
+    static std::unordered_set<std::string> said;
+    const std::scoped_lock held(lock);
+    if (said.insert(old).second) {
+        UtilityFunctions::push_warning(to_godot(old), " is ", to_godot(now),
+                                       " now. The old name still works: write the new one in scenes and "
+                                       "scripts before it is dropped, see CHANGELOG.md.");
     }
 }
 

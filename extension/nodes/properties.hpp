@@ -3,10 +3,13 @@
 // TACTUS_PROPERTIES(Class) among its public members and nothing more.
 #pragma once
 
+#include <algorithm>
 #include <godot_cpp/core/binder_common.hpp>
 #include <godot_cpp/core/object.hpp>
 #include <godot_cpp/variant/variant.hpp>
+#include <ranges>
 #include <span>
+#include <string_view>
 #include <type_traits>
 
 #include "nodes/conversions.hpp"
@@ -25,7 +28,8 @@ struct PropertyLimits {
 template <class Owner>
 struct Property {
     const char* name;
-    const char* was = "";  // "Class.name" under which older scenes have stored it
+    // The names that it had, separated by spaces; "Class.name" where it was another class's.
+    std::string_view was = {};
     PropertyLimits limits = {};
     godot::Variant (*read)(const Owner&) = nullptr;
     void (*write)(Owner&, const godot::Variant&) = nullptr;
@@ -120,22 +124,39 @@ godot::Variant get_property(const Owner& owner, int64_t index) {
     return property != nullptr ? property->read(owner) : godot::Variant();
 }
 
-// What "Class.name" of an older scene is called here; null: nothing of this class.
+// A class or a property of an older scene or script was met under a former name. Warns once of each name,
+// from any thread.
+void warn_of_rename(const std::string& old, const std::string& now);
+
+// The property that had this name, which may be "Class.name" (see Property::was); null: none of this class.
 template <class Owner>
-const char* new_name_of(const godot::String& old) {
+const char* new_name_of(std::string_view old) {
     for (const Property<Owner>& property : Owner::properties()) {
-        if (old == godot::String(property.was)) {
-            return property.name;
+        for (const auto name : std::views::split(property.was, ' ')) {
+            if (std::ranges::equal(name, old)) {
+                return property.name;
+            }
         }
     }
     return nullptr;
+}
+
+// The same of a property that this class had under its former name (row: see Property).
+template <class Owner>
+void warn_of_former_name(const Property<Owner>& row) {
+    const std::string of = from_godot(godot::String(Owner::get_class_static())) + ".";
+    for (const auto name : std::views::split(row.was, ' ')) {
+        if (std::ranges::find(name, '.') == name.end()) {
+            warn_of_rename(of + std::string(name.begin(), name.end()), of + row.name);
+        }
+    }
 }
 
 }  // namespace tactus
 
 // By the number of its row. What is read is typed as the property is, and a typed script knows the property
 // by that; what is set comes as it is, so that a value of another type is refused in words and not by Godot
-// in silence.
+// in silence. Under its former name, a property is a second one that warns.
 #define TACTUS_PROPERTIES(Class)                                                    \
     static std::span<const tactus::Property<Class>> properties();                   \
     template <int64_t row>                                                          \
@@ -149,4 +170,14 @@ const char* new_name_of(const godot::String& old) {
     template <int64_t row, class Value>                                             \
     Value get_row() const {                                                         \
         return godot::VariantCaster<Value>::cast(tactus::get_property(*this, row)); \
+    }                                                                               \
+    template <int64_t row>                                                          \
+    void set_renamed(const godot::Variant& value) {                                 \
+        tactus::warn_of_former_name(properties()[row]);                             \
+        set_row<row>(value);                                                        \
+    }                                                                               \
+    template <int64_t row, class Value>                                             \
+    Value get_renamed() const {                                                     \
+        tactus::warn_of_former_name(properties()[row]);                             \
+        return get_row<row, Value>();                                               \
     }

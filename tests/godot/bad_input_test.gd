@@ -68,7 +68,7 @@ func _with_field(values: PackedFloat32Array, size: Vector3i) -> StaticBody3D:
 	var field := HapticVolume.new()
 	field.values = values
 	field.size = size
-	(body.get_child(0) as HapticMesh).field = field
+	(body.get_child(0) as HapticMesh).volume = field
 	return body
 
 

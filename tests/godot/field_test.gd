@@ -25,7 +25,7 @@ func _ball(radius: float) -> HapticVolume:
 func _body_of(field: HapticVolume, body: CollisionObject3D = StaticBody3D.new()) -> CollisionObject3D:
 	var touched := HapticMesh.new()
 	touched.name = "Touched"
-	touched.field = field
+	touched.volume = field
 	body.add_child(touched)
 	return body
 

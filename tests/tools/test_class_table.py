@@ -1,5 +1,6 @@
 """The class reference as the table behind code and help."""
 
+import re
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
@@ -58,3 +59,24 @@ def test_what_is_not_shown_is_still_stored():
         assert f'(name == "{name}" && !(form_ == {form}))' in table.source()
     assert "property.usage = PROPERTY_USAGE_STORAGE;" in table.source()
     assert '(name == "form"' not in table.source()
+
+
+def test_former_names_are_those_of_the_changelog():
+    """tests/godot/renames_test.gd loads each of them."""
+    text = (FOLDER.parents[1] / "CHANGELOG.md").read_text()
+    listed = re.findall(r"^\| `([\w.]+)` \| `([\w.]+)` \|$", text, re.MULTILINE)
+    renamed = [(table.old_name(), table.name) for table in TABLES if table.old_name()]
+    for table in TABLES:
+        for member in table.all("member"):
+            for old in member.get("was", "").split():
+                renamed.append((old if "." in old else f"{table.name}.{old}", f"{table.name}.{member.get('name')}"))
+    assert len(listed) == len({old for old, _ in listed}) and sorted(listed) == sorted(renamed)
+
+
+def test_a_former_name_is_deprecated_in_the_help():
+    table = next(table for table in TABLES if table.name == "MMTTuning")
+    old = ElementTree.fromstring(table.old_help())
+    assert (old.get("name"), old.get("inherits"), old.get("deprecated")) == ("TeleopTuning", "MMTTuning", "Use [MMTTuning] instead.")
+    member = ElementTree.fromstring(table.help()).find(".//member[@name='stealth_let_go']")
+    assert member.get("deprecated") == "Use [member stealth_release_time] instead."
+    assert (member.get("setter"), member.get("getter"), member.get("type")) == ("set_stealth_let_go", "get_stealth_let_go", "float")

@@ -33,7 +33,7 @@ NOT_REWRITTEN = {
 # Public names that hold a replaced word: scenes and scripts have them, and a new name has to load the old one.
 KEPT_NAMES = {
     "HapticTool.STATUS_SQUEEZED", "MMTLink.refused_strangers", "ProxyPointer.STATUS_SQUEEZED", "ProxyPointer.is_being_let_out",
-    "ProxyPointer.is_squeezed", "MMTTuning.stand_in_leash", "MMTTuning.stealth_let_go",
+    "ProxyPointer.is_squeezed",
 }  # fmt: skip
 
 

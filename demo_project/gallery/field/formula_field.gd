@@ -27,11 +27,11 @@ func _ready() -> void:
 				var p := Vector3(x, y, z) * step - Vector3.ONE * 0.5 * side
 				values[i] = _maze(p) if form == Form.MAZE else _lump(p)
 				i += 1
-	field = HapticVolume.new()
-	field.size = Vector3i.ONE * samples
-	field.voxel_size = Vector3.ONE * step
-	field.values = values
-	(get_node("../Look") as MeshInstance3D).mesh = field.create_mesh()
+	volume = HapticVolume.new()
+	volume.size = Vector3i.ONE * samples
+	volume.voxel_size = Vector3.ONE * step
+	volume.values = values
+	(get_node("../Look") as MeshInstance3D).mesh = volume.create_mesh()
 
 
 ## The walls of a gyroid, within a ball.

@@ -27,8 +27,8 @@ func lines(node: Node3D) -> PackedVector3Array:
 
 
 func _touched(node: HapticMesh) -> Mesh:
-	if node.field != null:
-		return node.field.create_mesh()
+	if node.volume != null:
+		return node.volume.create_mesh()
 	if node.mesh != null:
 		return node.mesh
 	return null if node.library_mesh.is_empty() else HapticMesh.create_library_mesh(node.library_mesh)
