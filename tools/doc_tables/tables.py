@@ -45,12 +45,12 @@ def cell(summary: Summary, key: str, digits: int = 2) -> str:
 
 def static_errors(summary: Summary) -> Rows:
     lines = {
-        "traditional, 0 ms": "traditional_0ms.force_error_mean_N",
-        "traditional, 100 ms": "traditional_100ms.force_error_mean_N",
+        "direct, 0 ms": "traditional_0ms.force_error_mean_N",
+        "direct, 100 ms": "traditional_100ms.force_error_mean_N",
         **{f"… {way.replace('_', ' ')}, 100 ms": f"traditional_{way}_100ms.force_error_mean_N" for way in teleop_runs.PASSIVITY},
         **{f"right model, {delay} ms": f"mmt_right_{delay}ms.force_error_mean_N" for delay in (100, 500, 5000)},
         **{f"wrong model, never corrected, {delay} ms": f"mmt_wrong_{delay}ms.force_error_mean_N" for delay in (0, 100, 500, 5000)},
-        "… over traditional, 100 ms": "mmt_wrong_100ms.over_traditional_100ms",
+        "… over direct, 100 ms": "mmt_wrong_100ms.over_traditional_100ms",
         "… the third turn over the first": "mmt_wrong_100ms.force_error_last_turn_over_first",
         "wrong model, default": "mmt_wrong_told_100ms.force_error_mean_N",
         "wrong model, corrected from the first touch on": "mmt_wrong_corrected_100ms.force_error_mean_N",
@@ -220,11 +220,11 @@ _PAGE = "teleoperation.md"
 TABLES: dict[str, Table] = {
     "static_errors": Table(_PAGE, "static_mmt", PLAIN, ("", "thesis path", "waves"), static_errors),
     "static_trade": Table(
-        _PAGE, "static_mmt", PLAIN, ("", "waves: right after (s)", "felt excess (JND)", "held: right after (s)", "felt excess (JND)"), static_trade
+        _PAGE, "static_mmt", PLAIN, ("", "waves: right after (s)", "excess force (JND)", "held: right after (s)", "excess force (JND)"), static_trade
     ),
     "dynamic_schemes": Table(
         _PAGE, "dynamic_mmt", DYNAMIC_RUN,
-        ("", "box off, RMS (mm)", "force error, mean (N)", "p95", "p99", "max", "felt excess in 100 ms, mean (JND)", "p99", "max",
+        ("", "box off, RMS (mm)", "force error, mean (N)", "p95", "p99", "max", "excess force in 100 ms, mean (JND)", "p99", "max",
          "largest step (N)", "energy made in a contact (J)", "given to the hand, most (J)", "made by the link, most (J)"),
         dynamic_schemes,
     ),

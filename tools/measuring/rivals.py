@@ -2,7 +2,7 @@
 
 With a model of the far side: never corrected; pose alone, the thesis's; velocities, its equation 3.1; passive updates,
 whose corrections are paid for by what touch has taken; pointers carried along with a corrected object, translated or turned (thesis
-3.1.4); and the default. Without one, traditional touch: as it is, and
+3.1.4); and the default. Without one, direct teleoperation: as it is, and
 with each scheme that keeps it passive.
 """
 
@@ -45,7 +45,7 @@ PASSIVE = ("passive_updates", *(scheme for scheme in TRADITIONAL if scheme != "t
 LABELS = {
     DEFAULT: "default", "never_corrected": "never corrected", "pose_only": "pose alone (thesis)",
     "velocities": "velocities (eq. 3.1)", "passive_updates": "passive updates", "carried_translate": "carried, translated (3.1.4)",
-    "carried_turn": "carried, turned (3.1.4)", "traditional": "traditional",
+    "carried_turn": "carried, turned (3.1.4)", "traditional": "direct",
     "traditional_wave_variables": "… wave variables", "traditional_time_domain": "… time domain",
     "traditional_two_layers": "… two layers",
 }  # fmt: skip

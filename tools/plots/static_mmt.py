@@ -13,7 +13,7 @@ def draw(folder: Path, path: str, until: float) -> None:
     right, wrong = read(folder / f"{path}.mmt_right_100ms.csv"), read(folder / f"{path}.mmt_wrong_100ms.csv")
     drawn, ((force,), (error,)) = style.figure(2, 1, 9.0, 6.0, sharex=True)
     force.plot(right["time"], right["direct_y"], color=style.QUIET, linewidth=3.0, alpha=0.5, label="direct touch")
-    force.plot(right["time"], traditional["force_y"], color=style.WARNING, linewidth=1.1, label="traditional, 100 ms")
+    force.plot(right["time"], traditional["force_y"], color=style.WARNING, linewidth=1.1, label="direct, 100 ms")
     force.plot(right["time"], wrong["force_y"], color=style.REFERENCE, linewidth=1.1, label="wrong model")
     force.plot(right["time"], right["force_y"], color=style.MEASURED, linewidth=1.1, label="right model")
     force.set(ylabel="force, vertical (N)", xlim=(0.0, until))
@@ -41,7 +41,7 @@ def _draw_correction(folder: Path, path: str, until: float) -> None:
 
 
 def draw_trade(summary: dict[str, object], name: str, shares: tuple[str, ...], ways: tuple[str, ...], path: Path) -> None:
-    """Felt excess against time to truth: the same correction from careful to careless, and other ways."""
+    """Excess force against time to truth: the same correction from careful to careless, and other ways."""
     drawn, ((one,),) = style.figure(1, 1, 8.0, 5.0)
 
     def point(case: str) -> tuple[float, float]:

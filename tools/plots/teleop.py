@@ -46,7 +46,7 @@ def draw_gain(folder: Path, scene: str, delay: float) -> None:
     size = np.sqrt(sum(direct[f"direct_{axis}"] ** 2 for axis in "xyz"))
     force.plot(direct["time"], size, color=style.QUIET, linewidth=3.0, alpha=0.5, label="direct touch")
     for scenario, colour, label in (
-        ("traditional", style.WARNING, "traditional"),
+        ("traditional", style.WARNING, "direct"),
         ("mmt", style.MEASURED, "model-mediated"),
     ):
         size = np.sqrt(sum(rows[scenario][f"force_{axis}"] ** 2 for axis in "xyz"))
@@ -113,7 +113,7 @@ def draw_variants(found: dict, variants: tuple[str, ...], delay: str, path: Path
     figures = (
         ("force_error_mean_N", "force error, mean (N)"),
         ("box_position_error_rms_mm", "box off by, RMS (mm)"),
-        ("felt_excess_100ms_jnd_p99", "felt excess in 100 ms, p99 (JND)"),
+        ("felt_excess_100ms_jnd_p99", "excess force in 100 ms, p99 (JND)"),
     )
     drawn, axes = style.figure(1, 3, 15.0, 4.6, sharey=True)
     schemes = tuple(rivals.SCHEMES)
