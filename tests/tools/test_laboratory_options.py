@@ -74,3 +74,16 @@ def test_what_is_cited_gives_the_same_options_again(name):
     settings = options.parse(kind, {})
     given = [word for word in options.words(settings).split() if not word.endswith("=")]
     assert options.parse(kind, options.of_words(given)) == settings
+
+
+def test_delays_are_milliseconds_and_losses_shares_in_every_experiment():
+    units = {"delay": "ms", "delays": "ms", "grid_delays": "ms", "loss": "share", "losses": "share", "grid_losses": "share"}
+    seen = [(name, field) for name, field in _options() if field.name in units]
+    assert {field.name for _, field in seen} == set(units)
+    assert not [(name, field.name) for name, field in seen if options.unit_of(field) != units[field.name]]
+
+
+@pytest.mark.parametrize(("name", "word"), [("scenario4", "--delay=0.1"), ("timing_networked", "--delay=0.1"), ("dynamic_mmt", "--losses=0,10,50")])
+def test_commands_from_before_that_are_refused_and_not_misread(name, word, capsys, monkeypatch):
+    key, _, _ = word.removeprefix("--").partition("=")
+    assert key in _refused(capsys, monkeypatch, name, word)

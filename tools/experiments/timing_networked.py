@@ -1,15 +1,15 @@
 """How evenly both sides of a teleoperation tick: two Godot processes over UDP (thesis 5.2: nine of ten periods below
 1.15 ms).
 
-    ./run experiment timing_networked [--seconds=10] [--warmup=1] [--delay=0.1] [--rounds=3] [--calm=0.005] [--pictures=1]
+    ./run experiment timing_networked [--seconds=10] [--warmup=1] [--delay=100] [--rounds=3] [--calm=0.005] [--pictures=1]
 
 --seconds  measured time, in which the hand pushes the box of the dynamic scene
 --warmup   of the statistics, from when the two have met
---delay    there and back (unit: seconds)
+--delay    there and back (unit: milliseconds)
 --rounds, --calm   see measuring/rounds.py
 --pictures 0: no plot
 
-Keys are SCENARIO.SIDE.FIGURE: SCENARIO is `scenario2` (traditional) or `scenario4` (model-mediated), SIDE `operator` or
+Keys are SCENARIO.SIDE.FIGURE: SCENARIO is `scenario2` (direct) or `scenario4` (model-mediated), SIDE `operator` or
 `teleoperator`, and FIGURE one of HapticWorld.get_statistics(), with its unit. SCENARIO.round_trip_ms and
 SCENARIO.steal_share belong to both sides, machine.NAME to the machine.
 
@@ -30,7 +30,7 @@ from measuring.teleop_processes import FAR, MODEL_MEDIATED, OPERATOR, TRADITIONA
 
 SCENE = "res://gallery/dynamic_testbed/dynamic_testbed.tscn"
 SCENARIOS = {"scenario2": TRADITIONAL, "scenario4": MODEL_MEDIATED}
-TITLES = {"scenario2": "Traditional (2)", "scenario4": "Model-mediated (4)"}
+TITLES = {"scenario2": "Direct (2)", "scenario4": "Model-mediated (4)"}
 SIDES = {"operator": OPERATOR, "teleoperator": FAR}
 
 
@@ -38,7 +38,8 @@ SIDES = {"operator": OPERATOR, "teleoperator": FAR}
 class Settings:
     seconds: float = options.seconds(10.0, least=0.5)
     warmup: float = options.option(1.0, "s", 0, 3600)
-    delay: float = options.option(0.1, "s", 0, 10)
+    # From 1 on: a fraction is a delay in seconds, as it was once counted here.
+    delay: float = options.option(100.0, "ms", 1, options.LONGEST_DELAY_MS)
     rounds: int = options.option(3, "count", 1, 1000)
     calm: float = options.option(0.005, "share", 0, 1)
     pictures: bool = options.switch(True)
@@ -58,7 +59,7 @@ def run(given: dict[str, str], output: Path) -> dict[str, object]:
     direct = teleop_processes.direct_touch(teleop_processes.Case("direct", SCENE, whole), output / "rounds")
     for name, scenario in SCENARIOS.items():
         print(f"{name}: two processes for {whole:g} s", flush=True)
-        case = teleop_processes.Case(name, SCENE, whole, scenario, settings.delay, warmup=settings.warmup, baseline=True)
+        case = teleop_processes.Case(name, SCENE, whole, scenario, settings.delay / 1e3, warmup=settings.warmup, baseline=True)
         played = rounds.measure(settings.rounds, settings.calm, lambda number: _once(case, output / "rounds", direct, number))
         best[name] = played[rounds.reported(played) - 1]
         _write_rounds(output / "rounds.csv", name, played)
