@@ -10,6 +10,7 @@
 #include "nodes/haptic_material.hpp"
 #include "nodes/haptic_mesh.hpp"
 #include "nodes/haptic_soft_body.hpp"
+#include "nodes/haptic_world.hpp"
 #include "nodes/passed_over.hpp"
 #include "nodes/scene_warnings.hpp"
 
@@ -126,7 +127,10 @@ BodyForm read_form(CollisionObject3D& body, const Mat3& body_scale) {
             form.problems.push_back("'" + from_godot(String(soft->get_name())) + "': " + from_godot(problem));
         }
     }
-    if (Object::cast_to<RigidBody3D>(&body) != nullptr && body.has_method("_integrate_forces")) {
+    const HapticWorld* const world = HapticWorld::above(&body);
+    const bool world_moves = world == nullptr || !world->leaves_bodies_to_godot();
+    if (world_moves && Object::cast_to<RigidBody3D>(&body) != nullptr &&
+        body.has_method("_integrate_forces")) {
         form.problems.push_back(
             "its script has _integrate_forces(), which is not called while a HapticWorld moves the body: use "
             "_process() and HapticWorld.apply_force()");

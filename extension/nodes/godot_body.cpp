@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <godot_cpp/classes/animatable_body3d.hpp>
 #include <godot_cpp/classes/character_body3d.hpp>
+#include <godot_cpp/classes/physics_direct_body_state3d.hpp>
 #include <godot_cpp/classes/physics_material.hpp>
 #include <godot_cpp/classes/physics_server3d.hpp>
 #include <godot_cpp/core/object.hpp>
@@ -199,6 +200,22 @@ std::vector<Ref<Resource>> GodotBody::material_resources(const HapticMesh* mesh)
         resources.push_back(material);
     }
     return resources;
+}
+
+BodyMotion GodotBody::true_motion() const {
+    const PhysicsDirectBodyState3D* const state =
+        PhysicsServer3D::get_singleton()->body_get_direct_state(node_.get_rid());
+    if (state == nullptr) {  // it is not in a space at the moment
+        return {pose_of(frame()), speed().linear, speed().angular};
+    }
+    return {pose_of(frame_of(state->get_transform())), from_godot(state->get_linear_velocity()),
+            from_godot(state->get_angular_velocity())};
+}
+
+void GodotBody::push(const Vec3& impulse, const Vec3& turn) {
+    PhysicsServer3D* const server = PhysicsServer3D::get_singleton();
+    server->body_apply_central_impulse(node_.get_rid(), to_godot(impulse));
+    server->body_apply_torque_impulse(node_.get_rid(), to_godot(turn));
 }
 
 void GodotBody::hold_still() {

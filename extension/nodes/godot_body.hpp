@@ -40,6 +40,8 @@ public:
     BodyForm form(const Mat3& scaling) const override { return read_form(node_, scaling); }
     BodyValues values(const BodyDefaults& defaults) override;
 
+    BodyMotion true_motion() const override;
+    void push(const Vec3& impulse, const Vec3& turn) override;
     void hold_still() override;
     void listen() override;
     void tell_of_moves(bool tell) override;

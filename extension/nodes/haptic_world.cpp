@@ -32,6 +32,9 @@ constexpr double report_interval = 1.0;  // (unit: seconds)
 
 constexpr double max_advance = 3600.0;  // (unit: seconds)
 
+// Bodies of Godot's own physics lie in each other by up to this, by its own engine or by Jolt (unit: meters).
+constexpr double engine_slop = 0.02;
+
 // Frames take turns of very different length; a body that moves on Godot's side is given at least this long
 // for its way (unit: seconds).
 constexpr double shortest_way = 1e-3;
@@ -99,6 +102,10 @@ void HapticWorld::gravity_changed() {
     }
 }
 
+bool HapticWorld::leaves_bodies_to_godot() const {
+    return authority_ == AUTHORITY_GODOT && MMTLink::of(*this).empty();
+}
+
 BodyDefaults HapticWorld::body_defaults() const {
     BodyDefaults defaults;
     defaults.linear_damping = project_number("physics/3d/default_linear_damp", defaults.linear_damping);
@@ -147,6 +154,10 @@ void HapticWorld::start() {
     settings.session.max_parts = 4 * settings.session.max_bodies;
     settings.session.physics.gravity = from_godot(gravity_);
     settings.links = MMTLink::of(*this);
+    settings.engine_moves = leaves_bodies_to_godot();
+    if (settings.engine_moves) {
+        settings.session.physics.penetration_slop = engine_slop;
+    }
     // Both sides of a teleoperation have to come to the same result.
     settings.session.full_rate_bodies = !settings.links.empty() ? 0 : settings.session.full_rate_bodies;
     settings.inputs = record_inputs(settings.session);
@@ -156,6 +167,7 @@ void HapticWorld::start() {
     run_->synchronise(shortest_way);
     start_loop();
     set_process_internal(true);
+    set_physics_process_internal(run_->engine_moves());
     post_signal(*this, "started");
 }
 
@@ -268,6 +280,9 @@ void HapticWorld::_notification(int what) {
         case NOTIFICATION_INTERNAL_PROCESS:
             process(get_process_delta_time());
             break;
+        case NOTIFICATION_INTERNAL_PHYSICS_PROCESS:
+            physics_process(get_physics_process_delta_time());
+            break;
         case NOTIFICATION_PAUSED:
             if (run_ != nullptr) {
                 run_->pause();
@@ -331,6 +346,12 @@ void HapticWorld::process(double seconds) {
     report_status(seconds);
     run->show();
     run->ask_effects();
+}
+
+void HapticWorld::physics_process(double seconds) {
+    if (run_ != nullptr && run_->engine_moves() && !run_->is_over() && seconds > 0.0) {
+        run_->exchange(seconds);
+    }
 }
 
 int64_t HapticWorld::advance(double seconds) {

@@ -30,6 +30,7 @@ class HapticWorld : public godot::Node3D {
 
 public:
     enum Clock : int64_t { CLOCK_REAL_TIME, CLOCK_STEPPED };
+    enum Authority : int64_t { AUTHORITY_HAPTIC, AUTHORITY_GODOT };
 
     HapticWorld();
     ~HapticWorld() override;
@@ -83,6 +84,9 @@ public:
     // The last rows are written before the recorder closes its files.
     static void finish_recording(HapticRecorder& recorder);
     BodyDefaults body_defaults() const;
+    // Godot's own physics moves its bodies. Not the sides of a teleoperation, which have to come to the same
+    // result.
+    bool leaves_bodies_to_godot() const;
 
 protected:
     static void _bind_methods();
@@ -111,12 +115,14 @@ private:
     bool is_urgent() const;
     // In every frame. No virtual method: a script's _process() would take its place.
     void process(double seconds);
+    void physics_process(double seconds);
     void node_added(const godot::Variant& node);
     void node_removed(const godot::Variant& node);
     void report_status(double seconds);
 
     int tick_rate_ = 1000;
     Clock clock_ = CLOCK_REAL_TIME;
+    Authority authority_ = AUTHORITY_HAPTIC;
     godot::Vector3 gravity_;
     godot::Ref<HapticMaterial> default_material_;
     int max_bodies_ = 1024;

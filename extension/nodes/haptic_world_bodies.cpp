@@ -28,6 +28,20 @@ Dictionary dictionary_of(const BodyPoint& found, const SceneBodies& bodies) {
     return result;
 }
 
+// Godot's own physics moves the body.
+void push_in_godot(RigidBody3D& body, const BodyPush& push, bool for_a_frame) {
+    const Vector3 force = to_godot(push.impulse), turn = to_godot(push.turn);
+    const Vector3 at = push.central ? body.get_global_transform().basis.xform(body.get_center_of_mass())
+                                    : to_godot(push.point);
+    if (for_a_frame) {
+        body.apply_force(force, at);
+        body.apply_torque(turn);
+    } else {
+        body.apply_impulse(force, at);
+        body.apply_torque_impulse(turn);
+    }
+}
+
 void refuse_body(const HapticWorld& world, const char* method, const String& problem) {
     UtilityFunctions::push_error(name_of(world), ": ", method, "() did nothing: the body that it was given ",
                                  problem, ": give it a body of this world that is in the scene tree.");
@@ -55,6 +69,10 @@ void HapticWorld::push(const char* method, const Variant& body, const BodyPush& 
     }
     if (wrong != nullptr) {
         UtilityFunctions::push_error(name_of(*this), ": ", method, "() did nothing: ", wrong, ".");
+        return;
+    }
+    if (run_->engine_moves()) {
+        push_in_godot(*object_in<RigidBody3D>(body), push, for_a_frame);
         return;
     }
     run_->running().push(run_->body_of(rigid), push, for_a_frame);
@@ -96,6 +114,13 @@ BodyState HapticWorld::state_of(const char* method, const Variant& body) const {
     if (const String problem = problem_of_object(body); !problem.is_empty()) {
         refuse_body(*this, method, problem);
         return {};
+    }
+    const auto* const rigid = object_in<RigidBody3D>(body);
+    if (run_ != nullptr && run_->engine_moves() && rigid != nullptr) {
+        BodyState state;
+        state.linear_velocity = from_godot(rigid->get_linear_velocity());
+        state.angular_velocity = from_godot(rigid->get_angular_velocity());
+        return state;
     }
     return run_ != nullptr ? run_->state_of(object_in<Node>(body)) : BodyState{};
 }

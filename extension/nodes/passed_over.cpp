@@ -180,18 +180,26 @@ void add_signals(const Node& node, std::vector<std::string>& found) {
     }
 }
 
+bool leaves_to_godot(const Node& node) {
+    const HapticWorld* const world = HapticWorld::above(&node);
+    return world != nullptr && world->leaves_bodies_to_godot();
+}
+
 }  // namespace
 
 std::vector<std::string> passed_over(const Node& node) {
     std::vector<std::string> found;
     for (const PassedKind& kind : passed_kinds) {
-        if (node.is_class(kind.kind)) {
+        if (node.is_class(kind.kind) && !(leaves_to_godot(node) && node.is_class("VehicleWheel3D"))) {
             found.emplace_back(kind.why);
         }
     }
     if (node.is_class("CSGShape3D") && static_cast<bool>(node.get("use_collision"))) {
         found.push_back("a " + from_godot(node.get_class()) +
                         " is not carried over: bake its collision shape (menu CSG) into a StaticBody3D");
+    }
+    if (leaves_to_godot(node)) {  // all of that goes on
+        return found;
     }
     for (const PassedProperty& one : passed_properties) {
         if (node.is_class(one.kind) && number_of(node.get(one.property)) != one.unused) {

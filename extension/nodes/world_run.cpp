@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <godot_cpp/classes/engine.hpp>
 #include <map>
+#include <span>
 
 #include "core/haptics/touch_values.hpp"
 #include "nodes/conversions.hpp"
@@ -55,6 +56,7 @@ WorldRun::WorldRun(HapticWorld& world, RunSettings settings)
     : world_(world),
       running_(settings.session, settings.real_time, pose_of(world.get_global_transform()),
                plans_of(settings.links), std::move(settings.inputs)),
+      engine_moves_(settings.engine_moves),
       bodies_(world, settings.session.max_bodies, settings.real_time, complaints_) {
     for (const MMTLink* link : settings.links) {
         link_nodes_.push_back(link->get_instance_id());
@@ -140,7 +142,8 @@ void WorldRun::look_at_scene() {
         complaints_.say(world_, problem_of_emptiness(world_));
     } else if (looks_ == first) {
         complaints_.say(world_, problem_of_outside(world_));
-        for (const std::string& problem : problems_across(world_)) {
+        for (const std::string& problem :
+             engine_moves_ ? std::vector<std::string>() : problems_across(world_)) {
             complaints_.say(world_, problem);
         }
     }
@@ -161,6 +164,10 @@ void WorldRun::synchronise_bodies(double seconds) {
     context.touch_radius = hands_->smallest_radius();
     context.ticks = loop().ticks() > 0 || !loop().is_real_time();
     context.together = loop().is_real_time();
+    context.engine_moves = engine_moves_;
+    if (engine_moves_) {  // it moves them no more often
+        context.seconds = std::max(seconds, world_.get_physics_process_delta_time());
+    }
     bodies_.synchronise(context);
     waited_ += context.ticks || trees_building() == 0 ? 0.0 : seconds;
 }
@@ -278,10 +285,13 @@ void WorldRun::show() {
         reports.push_back(link->report());
     }
     const std::vector<ModelNews> news = std::exchange(model_news_, {});
-    if (session().refresh()) {
+    is_fresh_ |= session().refresh();
+    if (std::exchange(is_fresh_, false)) {
         const SessionSnapshot& snapshot = session().snapshot();
         hands_->show_devices(snapshot);
-        show_bodies(snapshot);
+        if (!engine_moves_) {
+            show_bodies(snapshot);
+        }
         if (!is_over()) {
             hands_->show_pointers(snapshot, [this](SessionHandle body) { return view().node_of(body); });
         }
@@ -292,6 +302,19 @@ void WorldRun::show() {
             node->take_report(reports[i], news);
         }
     }
+}
+
+void WorldRun::exchange(double seconds) {
+    is_fresh_ |= session().refresh();
+    const SessionSnapshot& snapshot = session().snapshot();
+    hand_places_.clear();
+    for (const ProxyState& proxy : std::span(snapshot.proxies).first(snapshot.proxy_count)) {
+        hand_places_.push_back(proxy.position);
+    }
+    for (const ToolState& tool : std::span(snapshot.tools).first(snapshot.tool_count)) {
+        hand_places_.push_back(tool.pose.position);
+    }
+    bodies_.mirrors().exchange({session(), hand_places_, seconds});
 }
 
 // A script that is called as a body moves may end all this.
@@ -375,7 +398,9 @@ std::vector<std::string> WorldRun::problems() const {
     }
     if (model_ == nullptr) {
         std::ranges::move(bodies_.problems(), std::back_inserter(all));
-        std::ranges::move(problems_across(world_), std::back_inserter(all));
+        if (!engine_moves_) {
+            std::ranges::move(problems_across(world_), std::back_inserter(all));
+        }
     }
     if (std::string slow = problem_of_time(); !slow.empty()) {
         all.push_back(std::move(slow));

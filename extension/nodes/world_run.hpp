@@ -23,6 +23,7 @@ class MMTLink;
 struct RunSettings {
     SessionSettings session;
     bool real_time = true;
+    bool engine_moves = false;               // Godot's own physics moves the bodies
     std::vector<MMTLink*> links;             // empty: nobody at a far side
     std::unique_ptr<InputRecording> inputs;  // null: they are not recorded
 };
@@ -51,6 +52,8 @@ public:
 
     // Passes on what changed in the scene tree; `seconds`: since the last call.
     void synchronise(double seconds);
+    // Godot's own physics moves the bodies and is about to step, by `seconds`.
+    void exchange(double seconds);
     // Shows in the scene tree what the loop has done.
     void show();
     // Lets scripts say what forces are on the hands. Last: they may do anything, and end all this.
@@ -66,6 +69,7 @@ public:
     SessionHandle body_of(const godot::Node* node) {
         return node != nullptr ? view().body_of(node->get_instance_id()) : no_handle;
     }
+    bool engine_moves() const { return engine_moves_; }
     BodyState state_of(const godot::Node* node) { return running_.state_of(body_of(node)); }
 
     const SceneBodies& bodies() const { return bodies_; }
@@ -100,6 +104,9 @@ private:
     Nanoseconds model_changed_ = 0;      // when it did last
     bool is_model_compared_ = false;     // since then
     bool is_busy_ = false;
+    const bool engine_moves_;        // see RunSettings
+    bool is_fresh_ = false;          // the snapshot is shown in the next frame
+    std::vector<Vec3> hand_places_;  // of this frame; keeps its memory
 
     Complaints complaints_;
     SceneBodies bodies_;

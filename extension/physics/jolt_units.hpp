@@ -37,6 +37,11 @@ inline JPH::Vec3 torque(const Vec3& v) {
     return {area(v.x), area(v.y), area(v.z)};
 }
 
+inline Vec3 untorque(JPH::Vec3Arg v) {
+    constexpr double scale = 1.0 / (jolt_per_meter * jolt_per_meter);
+    return {v.GetX() * scale, v.GetY() * scale, v.GetZ() * scale};
+}
+
 // Directions, angular velocities: no length in them.
 inline JPH::Vec3 plain(const Vec3& v) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};

@@ -336,7 +336,7 @@ void PhysicsWorld::apply_force(BodyId id, const Vec3& force, const Vec3& world_p
 
 void PhysicsWorld::apply_spring_force(BodyId id, const SpringForce& spring) {
     if (!(spring.stiffness > 0.0) || impl_->push_count == impl_->pushes.size()) {
-        apply_force(id, spring.force, spring.point);
+        apply_hand_force(id, spring.force, spring.point);
         return;
     }
     JPH::Body* body = impl_->find(id);
@@ -345,6 +345,18 @@ void PhysicsWorld::apply_spring_force(BodyId id, const SpringForce& spring) {
     const LoopMemoryScope scope(impl_->memory);
     impl_->wake(*body);
     impl_->pushes[impl_->push_count++].set(*body, spring);
+}
+
+void PhysicsWorld::apply_hand_force(BodyId id, const Vec3& force, const Vec3& world_point) {
+    const JPH::Body* body = impl_->find(id);
+    if (body == nullptr || !body->IsDynamic() || !limits::is_number(force) || !in_reach(*body, world_point))
+        return;
+    apply_force(id, force, world_point);
+    if (impl_->plain_pushes.size() < impl_->plain_pushes.capacity()) {
+        const Vec3 arm = world_point - units::position(body->GetCenterOfMassPosition());
+        const Vec3 given = limits::cut(force, limits::strongest);
+        impl_->plain_pushes.push_back({id, given, glm::cross(arm, given)});
+    }
 }
 
 void PhysicsWorld::apply_torque(BodyId id, const Vec3& torque) {
@@ -376,12 +388,17 @@ std::span<const BodyId> PhysicsWorld::moved() const {
     return impl_->moved;
 }
 
+std::span<const HandPush> PhysicsWorld::hand_pushes() const {
+    return impl_->given;
+}
+
 std::uint64_t PhysicsWorld::steps() const {
     return impl_->steps;
 }
 
 std::uint32_t PhysicsWorld::step(double seconds) {
     impl_->moved.clear();
+    impl_->given.clear();
     if (!anything_awake() || !(seconds > 0.0))
         return step_nothing_awake;
     ++impl_->steps;
@@ -389,6 +406,7 @@ std::uint32_t PhysicsWorld::step(double seconds) {
     const LoopMemoryScope scope(impl_->memory);
     impl_->add_pushes();
     std::uint32_t status = impl_->update(seconds, impl_->settings.velocity_iterations);
+    impl_->note_given(seconds);
     impl_->remove_pushes();
     impl_->far.plan(seconds);
     while (const SlowRate* rate = impl_->far.begin_turn()) {

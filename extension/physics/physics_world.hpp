@@ -35,12 +35,15 @@ struct PhysicsSettings {
     std::uint32_t max_bodies = 4096;  // 1..65536; what is added beyond is refused
     std::uint32_t max_touching_pairs =
         8192;  // pairs of bodies near each other; beyond, contacts are lost and said so
-    std::uint32_t max_contacts = 4096;     // pairs of surfaces in contact, likewise
-    Vec3 gravity{0.0, -9.81, 0.0};         // (unit: meters per square second)
-    int sub_steps = 1;                     // collision steps in one step(), 1..16
-    int velocity_iterations = 6;           // of the contact solver in a sub-step, >= 2
-    std::uint32_t max_joints = 256;        // 1..32768
-    int position_iterations = 2;           // >= 1
+    std::uint32_t max_contacts = 4096;  // pairs of surfaces in contact, likewise
+    Vec3 gravity{0.0, -9.81, 0.0};      // (unit: meters per square second)
+    int sub_steps = 1;                  // collision steps in one step(), 1..16
+    int velocity_iterations = 6;        // of the contact solver in a sub-step, >= 2
+    std::uint32_t max_joints = 256;     // 1..32768
+    int position_iterations = 2;        // >= 1
+    // Bodies may overlap by this before they are pushed apart, >= 0 (unit: meters). Without any overlap
+    // contacts come and go from tick to tick.
+    double penetration_slop = 2e-5;
     std::uint32_t remembered_wakings = 0;  // see save(); 0 where nobody goes back in time
     // When more bodies than this are awake, those farthest from every hand take longer steps where these
     // change nothing (far_islands.hpp). 0: all take every step; needed for save().
@@ -68,6 +71,13 @@ struct SpringForce {
     Vec3 hand_velocity{0.0};  // during the step, in the world (unit: meters per second)
     bool sticks = false;
     TwistSpring twist = {};
+};
+
+// What a hand's springs and forces have given a body in a step.
+struct HandPush {
+    BodyId body;
+    Vec3 impulse{0.0};  // in the world (unit: newton seconds)
+    Vec3 turn{0.0};     // angular impulse about its centre of mass (unit: newton meter seconds)
 };
 
 // Bits that step() returns.
@@ -142,6 +152,8 @@ public:
     // (spring_push.hpp). The first 64 a step; beyond, and for a stiffness of zero, it is apply_force().
     void apply_spring_force(BodyId id, const SpringForce& spring);
     void apply_torque(BodyId id, const Vec3& torque);  // (unit: newton meters)
+    // As apply_force(), counted among hand_pushes().
+    void apply_hand_force(BodyId id, const Vec3& force, const Vec3& world_point);
 
     // --- time
 
@@ -158,6 +170,10 @@ public:
     // The bodies that the last step moved or woke, each once; the same order on every run. Until the next
     // one.
     std::span<const BodyId> moved() const;
+
+    // What hands gave in the last step that was more than nothing, one for each spring and force; exact: a
+    // body without anything else has changed its momentum by so much. Until the next step.
+    std::span<const HandPush> hand_pushes() const;
 
     std::uint64_t steps() const;  // that were more than nothing, so far
 

@@ -62,6 +62,8 @@ void SpringPush::set(JPH::Body& body, const SpringForce& spring) {
 }
 
 void SpringPush::SetupVelocityConstraint(float seconds) {
+    push_.impulse += of_sub_step();
+    push_.turn += turn_of_sub_step();
     const JPH::MotionProperties& motion = *push_.body->GetMotionProperties();
     arm_ = push_.body->GetRotation() * push_.local_point;
     lever_ = arm_.Cross(push_.direction);

@@ -50,6 +50,10 @@ public:
     }
 
     bool acts_on(const JPH::Body& body) const { return push_.body == &body; }
+    const JPH::Body& body() const { return *push_.body; }
+    // What the step has given the body: the impulse, and the angular impulse about the centre of mass.
+    JPH::Vec3 impulse() const { return push_.impulse + of_sub_step(); }
+    JPH::Vec3 turn() const { return push_.turn + turn_of_sub_step(); }
 
     JPH::EConstraintSubType GetSubType() const override { return JPH::EConstraintSubType::User1; }
     void NotifyShapeChanged(const JPH::BodyID&, JPH::Vec3Arg) override {}
@@ -70,6 +74,15 @@ private:
     bool solve_along();
     void add_impulse(JPH::Vec3Arg impulse);
     void add_impulse_along(float impulse);
+    // Zero where the body was asleep.
+    JPH::Vec3 of_sub_step() const {
+        return push_.elapsed == 0.0f ? JPH::Vec3::sZero()
+               : push_.sticks        ? impulse_
+                                     : push_.direction * impulse_along_;
+    }
+    JPH::Vec3 turn_of_sub_step() const {
+        return push_.elapsed == 0.0f ? JPH::Vec3::sZero() : arm_.Cross(of_sub_step()) + twist_.impulse();
+    }
     float given_along() const { return push_.sticks ? impulse_.Dot(push_.direction) : impulse_along_; }
     // What of a vector counts: along n alone for a sliding fingertip.
     JPH::Vec3 along(JPH::Vec3Arg v) const {
@@ -90,6 +103,8 @@ private:
         float damping = 0.0f;                           // c
         float elapsed = 0.0f;                           // since the step began (unit: seconds)
         float given = 0.0f;                             // impulse along n of the sub-steps before
+        JPH::Vec3 impulse = JPH::Vec3::sZero();         // of those, all of it
+        JPH::Vec3 turn = JPH::Vec3::sZero();            // and angular, about the centre of mass
     };
     Push push_;
     TwistHold twist_;

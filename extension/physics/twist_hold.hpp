@@ -21,6 +21,8 @@ public:
     void warm_start(JPH::Body& body) { add_impulse(body, impulse_); }
     // Whether anything has changed.
     bool solve(JPH::Body& body);
+    // Angular, of the last sub-step, in the world.
+    JPH::Vec3 impulse() const { return holds() ? axis_ * impulse_ : JPH::Vec3::sZero(); }
 
 private:
     bool holds() const { return limit_ > 0.0f; }

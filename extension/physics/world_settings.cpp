@@ -8,10 +8,6 @@ namespace tactus {
 
 namespace {
 
-// Bodies may overlap by this before they are pushed apart. Without any overlap contacts come and go from tick
-// to tick.
-constexpr double penetration_slop = 2e-5;  // (unit: meters)
-
 // Contacts are looked for this far ahead: what 1 m/s covers in a millisecond.
 constexpr double speculative_distance = 1e-3;  // (unit: meters)
 
@@ -44,7 +40,7 @@ float squared(float value) {
 
 JPH::PhysicsSettings jolt_settings(const PhysicsSettings& settings) {
     JPH::PhysicsSettings jolt;
-    jolt.mPenetrationSlop = units::length(penetration_slop);
+    jolt.mPenetrationSlop = units::length(std::max(0.0, settings.penetration_slop));
     jolt.mSpeculativeContactDistance = units::length(speculative_distance);
     jolt.mManifoldTolerance = units::length(manifold_tolerance);
     jolt.mMaxPenetrationDistance = units::length(largest_push);

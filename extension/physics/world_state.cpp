@@ -94,6 +94,8 @@ PhysicsWorld::Impl::Impl(const PhysicsSettings& wanted)
     system.SetBodyActivationListener(&activity);
     system.SetContactListener(&rules);
     moved.reserve(2 * settings.max_bodies);
+    plain_pushes.reserve(max_pushes);
+    given.reserve(2 * max_pushes);
 }
 
 PhysicsWorld::Impl::~Impl() {
@@ -184,7 +186,20 @@ void PhysicsWorld::Impl::remove_pushes() {
         system.RemoveConstraint(&pushes[--push_count]);
 }
 
+void PhysicsWorld::Impl::note_given(double seconds) {
+    given.clear();
+    for (const SpringPush& push : std::span(pushes).first(push_count))
+        given.push_back({BodyId{push.body().GetID().GetIndexAndSequenceNumber()},
+                         units::vector(push.impulse()), units::untorque(push.turn())});
+    for (const HandPush& push : plain_pushes)
+        given.push_back({push.body, push.impulse * seconds, push.turn * seconds});
+    plain_pushes.clear();
+}
+
 void PhysicsWorld::Impl::forget_pushes(const JPH::Body& body) {
+    std::erase_if(plain_pushes, [id = body.GetID()](const HandPush& push) {
+        return push.body.value == id.GetIndexAndSequenceNumber();
+    });
     for (std::size_t i = 0; i < push_count; ++i)
         if (pushes[i].acts_on(body))
             pushes[i--].take(pushes[--push_count]);

@@ -53,6 +53,7 @@ struct PhysicsWorld::Impl {
     // they are.
     void add_pushes();
     void remove_pushes();
+    void note_given(double seconds);
     void forget_pushes(const JPH::Body& body);  // it leaves the world or stops being dynamic
 
     PhysicsSettings settings;
@@ -77,6 +78,8 @@ struct PhysicsWorld::Impl {
     JointSwing swing;
     std::vector<SpringPush> pushes;  // the first push_count are of the next step
     std::size_t push_count = 0;
+    std::vector<HandPush> plain_pushes;  // of the next step: forces in place of impulses
+    std::vector<HandPush> given;         // see hand_pushes()
     std::size_t body_count = 0;
     std::uint64_t steps = 0;
 

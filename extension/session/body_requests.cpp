@@ -181,6 +181,19 @@ void Session::see_body(SessionHandle body, const BodySighting& sighting) {
     }
 }
 
+void Session::lead_body(SessionHandle body, bool led) {
+    impl_->send(command::LeadBody{body, led});
+}
+
+void Session::correct_body(SessionHandle body, const BodyCorrection& correction) {
+    const BodyCorrection& c = correction;
+    if (limits::is_pose({c.by, {1.0, 0.0, 0.0, 0.0}}) && limits::is_number(c.turn) && c.seconds >= 0.0 &&
+        c.seconds <= max_seconds && limits::is_number(c.linear) && limits::is_number(c.angular) &&
+        limits::is_number(c.acceleration) && limits::is_number(c.spin_up)) {
+        impl_->send(command::CorrectBody{body, correction});
+    }
+}
+
 AddResult Session::add_joint(const JointDescription& joint, SessionHandle first, SessionHandle second) {
     if (std::string error = wrong_in(joint); !error.empty()) {
         return {no_handle, std::move(error)};

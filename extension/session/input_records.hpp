@@ -114,7 +114,7 @@ using InputCall = std::variant<
     call::AddDevice, command::SetWorkspace, command::RemoveDevice, call::AddProxy, command::SetProxy,
     command::SetField, command::RemoveProxy, call::AddTool, command::SetTool, command::RemoveTool,
     call::Record, call::EndRecording, call::Attach, call::Announce, call::Epoch, call::WriteRows,
-    call::RowsWritten, call::NarrowTouch, command::ShiftBody>;
+    call::RowsWritten, call::NarrowTouch, command::ShiftBody, command::LeadBody, command::CorrectBody>;
 
 // By the loop. `link`: the number of the end.
 namespace heard {
@@ -244,7 +244,7 @@ inline constexpr int members<JointRange> = 2;
 template <>
 inline constexpr int members<JointDescription> = 8;
 template <>
-inline constexpr int members<PhysicsSettings> = 10;
+inline constexpr int members<PhysicsSettings> = 11;
 template <>
 inline constexpr int members<SessionSettings> = 6;
 template <>
@@ -333,6 +333,12 @@ template <>
 inline constexpr int members<command::TeleportBody> = 3;
 template <>
 inline constexpr int members<command::ShiftBody> = 3;
+template <>
+inline constexpr int members<BodyCorrection> = 7;
+template <>
+inline constexpr int members<command::LeadBody> = 2;
+template <>
+inline constexpr int members<command::CorrectBody> = 2;
 template <>
 inline constexpr int members<command::MoveBody> = 3;
 template <>

@@ -45,6 +45,12 @@ inline void ask(Session& session, const command::SetBodyPush& c) {
 inline void ask(Session& session, const command::SeeBody& c) {
     session.see_body(c.handle, c.sighting);
 }
+inline void ask(Session& session, const command::LeadBody& c) {
+    session.lead_body(c.handle, c.led);
+}
+inline void ask(Session& session, const command::CorrectBody& c) {
+    session.correct_body(c.handle, c.correction);
+}
 inline void ask(Session& session, const command::PushBody& c) {
     session.push_body(c.handle, c.push);
 }

@@ -121,6 +121,13 @@ public:
     // one where nothing is simulated goes on so until it is seen again, for longest_guess at most
     // (core/teleop/seen_pose.hpp).
     void see_body(SessionHandle body, const BodySighting& sighting);
+    // Another physics moves the body, and this one predicts it while hands touch it: from now on snapshots
+    // have a LedState of it. No more than max_led are.
+    void lead_body(SessionHandle body, bool led);
+    // Puts a led body right. The way goes on for as long as it takes to change no hand's force by more than
+    // FadingForce::max_step a tick; what is left of earlier corrections is done as well. One that is not made
+    // of numbers is not taken.
+    void correct_body(SessionHandle body, const BodyCorrection& correction);
     // Once, in the next tick.
     void push_body(SessionHandle body, const BodyPush& push);
     void set_gravity(const Vec3& gravity);

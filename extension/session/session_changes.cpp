@@ -152,6 +152,7 @@ bool SessionLoop::carry_out(command::RemoveBody& c, Retired& retired) {
     forget_magnet(c.handle);
     std::erase(pushed_, c.handle);
     std::erase(guessed_, c.handle);
+    std::erase_if(led_, [&c](const Led& one) { return one.state.handle == c.handle; });
     std::erase(forming_, c.handle);
     std::erase(giving_, c.handle);
     forget_obstacle(removed->slot);

@@ -98,6 +98,14 @@ struct PushBody {
     SessionHandle handle;
     BodyPush push;
 };
+struct LeadBody {
+    SessionHandle handle;
+    bool led;
+};
+struct CorrectBody {
+    SessionHandle handle;
+    BodyCorrection correction;
+};
 struct AddJoint {
     SessionHandle handle;
     JointDescription joint;  // its frames: see Session::add_joint
@@ -165,16 +173,15 @@ struct Attach {
 
 namespace tactus {
 
-using Command =
-    std::variant<command::AddBody, command::RemoveBody, command::DeformBody, command::NarrowTouch,
-                 command::TeleportBody, command::ShiftBody, command::MoveBody, command::SetBodyVelocity,
-                 command::SetTouchMaterial, command::SetBodySurface, command::SetBodyLayers,
-                 command::SetBodyMotion, command::SetBodyGravityScale, command::SetBodyDamping,
-                 command::SetBodyPush, command::SeeBody, command::PushBody, command::AddJoint,
-                 command::RemoveJoint, command::SetGravity, command::AddDevice, command::SetWorkspace,
-                 command::RemoveDevice, command::AddProxy, command::SetProxy, command::SetField,
-                 command::RemoveProxy, command::AddTool, command::SetTool, command::RemoveTool,
-                 command::Record, command::EndRecording, command::Attach>;
+using Command = std::variant<
+    command::AddBody, command::RemoveBody, command::DeformBody, command::NarrowTouch, command::TeleportBody,
+    command::ShiftBody, command::MoveBody, command::SetBodyVelocity, command::SetTouchMaterial,
+    command::SetBodySurface, command::SetBodyLayers, command::SetBodyMotion, command::SetBodyGravityScale,
+    command::SetBodyDamping, command::SetBodyPush, command::SeeBody, command::PushBody, command::AddJoint,
+    command::RemoveJoint, command::SetGravity, command::AddDevice, command::SetWorkspace,
+    command::RemoveDevice, command::AddProxy, command::SetProxy, command::SetField, command::RemoveProxy,
+    command::AddTool, command::SetTool, command::RemoveTool, command::Record, command::EndRecording,
+    command::Attach, command::LeadBody, command::CorrectBody>;
 
 // What has left the loop. Its handle may be given out again once the owner has seen this.
 struct Retired {

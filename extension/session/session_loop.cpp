@@ -52,6 +52,7 @@ SessionLoop::SessionLoop(const SessionSettings& settings, TripleBuffer<SessionSn
     magnets_.reserve(settings.max_bodies);
     pushed_.reserve(settings.max_bodies);
     guessed_.reserve(settings.max_bodies);
+    led_.reserve(max_led);
     joints_.resize(settings.physics.max_joints);
     states_.reserve(settings.max_bodies);
     hands_.reserve(max_proxies + max_tools);
@@ -66,6 +67,7 @@ TickStatus SessionLoop::tick(Nanoseconds now, TickTrace* trace, Nanoseconds late
     take_soft_forms();
     follow_physics();
     travel();
+    put_led_right();
     {
         const TraceScope scope(trace, TickStage::read_device);
         read_devices(now);
@@ -95,6 +97,7 @@ TickStatus SessionLoop::tick(Nanoseconds now, TickTrace* trace, Nanoseconds late
         if (!side_ || side_->simulates()) {
             step_physics();
             step_soft();
+            note_led();
         } else {
             guess();
         }
@@ -326,8 +329,8 @@ Vec3 SessionLoop::attract(const ProxySlot& slot, bool press) {
         const Vec3 on_hand = nearest.normal * -strength;
         pull += on_hand;
         if (press && magnet.motion == Motion::Dynamic) {
-            physics_.apply_force(magnet.id, -on_hand,
-                                 slot.proxy->position() - nearest.normal * nearest.distance);
+            physics_.apply_hand_force(magnet.id, -on_hand,
+                                      slot.proxy->position() - nearest.normal * nearest.distance);
         }
     }
     return pull;
@@ -479,6 +482,10 @@ void SessionLoop::publish(Nanoseconds now) {
     out.body_count = states_.size();
     out.tick = tick_;
     out.time = now;
+    out.led_count = led_.size();
+    for (std::size_t i = 0; i < led_.size(); ++i) {
+        out.led[i] = led_[i].state;
+    }
     out.awake_bodies = physics_.awake_count();
     out.slowed_bodies = physics_.slowed_count() + slowed_soft_;
     out.physics_steps = physics_.steps();

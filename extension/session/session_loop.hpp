@@ -259,6 +259,8 @@ private:
     bool carry_out(command::SetBodyPush& c, Retired&);
     bool carry_out(command::SeeBody& c, Retired&);
     bool carry_out(command::PushBody& c, Retired&);
+    bool carry_out(command::LeadBody& c, Retired&);
+    bool carry_out(command::CorrectBody& c, Retired&);
     bool carry_out(command::AddJoint& c, Retired&);
     bool carry_out(command::RemoveJoint& c, Retired& retired);
     bool carry_out(command::SetGravity& c, Retired&);
@@ -275,6 +277,18 @@ private:
     bool carry_out(command::Record& c, Retired&);
     bool carry_out(command::EndRecording& c, Retired&);
     bool carry_out(command::Attach& c, Retired& retired);
+
+    // See session_led.cpp.
+    struct Led {
+        LedState state;
+        BodyCorrection left;  // of `by` and `turn`, in `seconds`; what speeds it up
+    };
+    Led* led(SessionHandle handle);
+    void put_led_right();
+    void put_right_at_once(Led& one);
+    void go_on(Led& one);
+    double smoothest_share(SessionHandle handle, double way) const;
+    void note_led();
 
     void start_travel(SessionHandle handle, const Pose& target, double seconds);
     void end_travel(SessionHandle handle);
@@ -353,6 +367,7 @@ private:
     std::size_t slowed_soft_ = 0;          // of those, left out in the last
     std::vector<SessionHandle> pushed_;    // bodies with a push of their own
     std::vector<SessionHandle> guessed_;   // bodies that were seen to move
+    std::vector<Led> led_;                 // see Session::lead_body
     std::vector<JointId> joints_;          // by handle
     std::vector<SessionHandle> magnets_;   // bodies that pull before they are touched
     std::uint64_t magnet_changes_ = 0;     // how often one came, went or was described anew

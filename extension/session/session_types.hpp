@@ -29,6 +29,7 @@ constexpr std::size_t max_devices = 8;
 constexpr std::size_t max_recordings = 8;
 constexpr std::size_t max_proxies = 16;
 constexpr std::size_t max_tools = 4;
+constexpr std::size_t max_led = 64;
 
 struct SessionSettings {
     Nanoseconds period = 1'000'000;   // of a tick, > 0
@@ -92,6 +93,27 @@ struct BodyPush {
     Vec3 point{0.0};       // where, from the body's own place, in the world's axes (unit: meters)
     bool central = false;  // at its centre of mass instead
     Vec3 turn{0.0};        // angular impulse, in the world (unit: newton meter seconds)
+};
+
+// What puts a led body (Session::lead_body) right: it is compared elsewhere with what really moves it.
+struct BodyCorrection {
+    Vec3 by{0.0};    // moved by, spread over `seconds` (unit: meters)
+    Vec3 turn{0.0};  // turned by meanwhile, about its own place: a vector along its axis (unit: radians)
+    double seconds = 0.0;    // >= 0; 0: at once, without a way there
+    Vec3 linear{0.0};        // added to its velocity at once (unit: meters per second)
+    Vec3 angular{0.0};       // and to its spin (unit: radians per second)
+    Vec3 acceleration{0.0};  // from now on, besides its physics (unit: meters per square second)
+    Vec3 spin_up{0.0};       // and of its spin (unit: radians per square second)
+};
+
+// A led body after a tick. Sums run since it is led, and say nothing where it is not Motion::Dynamic.
+struct LedState {
+    SessionHandle handle = no_handle;
+    BodyMotion motion;
+    Vec3 impulse{0.0};  // that hands have given it, in the world (unit: newton seconds)
+    Vec3 turn{0.0};     // about its centre of mass (unit: newton meter seconds)
+    // Of all corrections, what has been carried out: sums of BodyCorrection's by, turn, linear and angular.
+    BodyCorrection corrected;
 };
 
 struct BodyState {
@@ -195,6 +217,8 @@ struct SessionSnapshot {
     std::size_t tool_count = 0;
     std::array<DeviceState, max_devices> devices;
     std::size_t device_count = 0;
+    std::array<LedState, max_led> led;
+    std::size_t led_count = 0;
     std::size_t awake_bodies = 0;
     std::size_t slowed_bodies =
         0;  // of those awake: far from every hand, at a sixteenth of the tick rate, or soft

@@ -1,6 +1,8 @@
 #include "world/body_mirror.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <utility>
 
 namespace tactus {
@@ -57,11 +59,11 @@ void BodyMirror::plan(const MirrorContext& context) {
         remember();
     }
     BodyForm form = body_->form(key_.scaling);
-    if (form.touchable) {
+    if (form.touchable && !context.engine_moves) {
         body_->hold_still();
     }
-    BodyPlan plan{std::move(form), body_->values(context.defaults), body_->makings(key_.scaling),
-                  remembered(), body_->can_be_thrown()};
+    BodyPlan plan{std::move(form), values(context), body_->makings(key_.scaling), remembered(),
+                  body_->can_be_thrown()};
     const bool is_new = handle() == no_handle;
     if (twin_.plan(std::move(plan), context.workers) && !(is_new && context.together)) {
         hand_over(context);
@@ -70,7 +72,10 @@ void BodyMirror::plan(const MirrorContext& context) {
 
 void BodyMirror::hand_over(const MirrorContext& context) {
     if (body_->is_there() && twin_.take_ready(context.session, context.takes_effect)) {
-        body_->hold_still();
+        if (!context.engine_moves) {
+            body_->hold_still();
+        }
+        is_near_ = false;
         remember();
         twin_.stand_at(context.session, remembered());
     }
@@ -158,9 +163,14 @@ void BodyMirror::synchronise(const MirrorContext& context, bool shapes_changed) 
         plan(context);
     }
     if (handle() != no_handle) {
-        body_->hold_still();
         const bool was_paused = twin_.values().is_paused;
-        twin_.set_values(context.session, body_->values(context.defaults));
+        twin_.set_values(context.session, values(context));
+        if (context.engine_moves) {
+            go_along(frame, context);
+            say_problems();
+            return;
+        }
+        body_->hold_still();
         if (was_paused && !twin_.values().is_paused && can_be_thrown() && is_finite(speed_)) {
             twin_.write_velocity(context.session, speed_.linear, speed_.angular, Session::all_of_velocity);
         }
@@ -173,14 +183,17 @@ void BodyMirror::synchronise(const MirrorContext& context, bool shapes_changed) 
 }
 
 void BodyMirror::follow(const MirrorContext& context) {
-    if (handle() != no_handle && body_->is_there()) {
+    if (handle() != no_handle && body_->is_there() && context.engine_moves) {
+        go_along(body_->frame(), context);
+        body_->say(place_problem_);
+    } else if (handle() != no_handle && body_->is_there()) {
         send(body_->frame(), context.session, context.ticks ? context.seconds : 0.0);
         body_->say(place_problem_);
     }
 }
 
 void BodyMirror::follow_speed(const MirrorContext& context) {
-    if (handle() != no_handle && body_->is_there()) {
+    if (handle() != no_handle && body_->is_there() && !context.engine_moves) {
         send(body_->frame(), context.session, context.ticks ? context.seconds : 0.0);
     }
 }
@@ -238,6 +251,83 @@ bool BodyMirror::come_to_rest() {
     }
     body_->tell_of_moves(true);
     return body_->is_in_scene() && is_elsewhere();
+}
+
+// --- where the engine's own physics moves it
+
+// Away from hands it is kinematic: it goes exactly where the engine has it.
+BodyValues BodyMirror::values(const MirrorContext& context) {
+    BodyValues values = body_->values(context.defaults);
+    is_moved_by_engine_ = context.engine_moves && values.motion == Motion::Dynamic;
+    if (is_moved_by_engine_ && !is_near_) {
+        values.motion = Motion::Kinematic;
+    }
+    return values;
+}
+
+void BodyMirror::go_along(const SceneFrame& frame, const MirrorContext& context) {
+    if (twin_.values().motion != Motion::Dynamic) {
+        send_place(frame, context.session, context.ticks ? context.seconds : 0.0, false);
+        return;
+    }
+    frame_ = frame;
+    place_problem_ = problem_of_place(frame);
+    if (place_problem_.empty()) {
+        twin_.goes_to(pose_of(frame));
+    }
+}
+
+bool BodyMirror::exchange(const PhysicsFrame& frame, bool may_be_led) {
+    if (handle() == no_handle || !body_->is_in_scene()) {
+        return false;
+    }
+    if (is_near_) {
+        exchange_led(frame);
+    }
+    // Far enough that a hand of 5 m/s does not arrive within a frame; what leaves does not come and go.
+    constexpr double near = 0.2, far = 0.4;  // of its surface (unit: meters)
+    const double within = twin_.reach() + (is_near_ ? far : near);
+    const bool is_near = may_be_led && is_moved_by_engine_ && place_problem_.empty() &&
+                         std::ranges::any_of(frame.hands, [&](const Vec3& hand) {
+                             return glm::distance(hand, twin_.pose().position) < within;
+                         });
+    if (is_near != is_near_) {
+        come_near(frame, is_near);
+    }
+    return is_near_;
+}
+
+void BodyMirror::exchange_led(const PhysicsFrame& frame) {
+    const SessionSnapshot& snapshot = frame.session.snapshot();
+    const LedState* const model = state_of(snapshot.led, snapshot.led_count, handle());
+    if (model == nullptr) {
+        return;  // it is on its way to the loop
+    }
+    const BodyMotion truth = body_->true_motion();
+    const LedMotion::Frame step = led_.frame(truth, *model, frame.seconds);
+    if (step.corrects) {
+        frame.session.correct_body(handle(), step.correction);
+    }
+    if (step.impulse != Vec3(0.0) || step.turn != Vec3(0.0)) {
+        body_->push(step.impulse, step.turn);
+    }
+}
+
+void BodyMirror::come_near(const PhysicsFrame& frame, bool is_near) {
+    is_near_ = is_near;
+    BodyValues values = twin_.values();
+    if (is_moved_by_engine_) {
+        values.motion = is_near ? Motion::Dynamic : Motion::Kinematic;
+    }
+    twin_.set_values(frame.session, values);
+    if (is_near) {
+        const BodyMotion truth = body_->true_motion();
+        frame.session.set_body_velocity(handle(), truth.linear_velocity, truth.angular_velocity);
+        led_ = {};
+    } else if (values.motion != Motion::Dynamic) {
+        twin_.move_to(frame.session, pose_of(frame_), frame.seconds);
+    }
+    frame.session.lead_body(handle(), is_near);
 }
 
 void BodyMirror::release(Session& session) {

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "world/body_twin.hpp"
+#include "world/led_motion.hpp"
 #include "world/scene_body.hpp"
 
 namespace tactus {
@@ -22,6 +24,14 @@ struct MirrorContext {
     bool together = false;           // what came at once waits for what of it is still being built
     std::uint64_t mesh_changes = 0;  // another one when the mesh that a body is touched by may be
     double touch_radius = 0.0;       // the smallest of a fingertip (unit: meters); 0: there is none
+    bool engine_moves = false;       // the engine's own physics moves its bodies, see BodyMirror::exchange
+};
+
+// One frame of the engine's own physics, which is about to step.
+struct PhysicsFrame {
+    Session& session;
+    std::span<const Vec3> hands;  // where they are (unit: meters)
+    double seconds = 0.0;         // of a frame, > 0
 };
 
 class BodyMirror {
@@ -65,6 +75,11 @@ public:
     // It is shown as it is for another frame. Whether a script has given it a place or speed meanwhile.
     bool come_to_rest();
 
+    // Where the engine's own physics moves it: near a hand, it is felt as a local model that is put right by
+    // each frame, and what hands give that goes to the engine's body. Elsewhere it goes where the engine has
+    // it, and where `may_be_led` is false. Whether it has a local model from now on.
+    bool exchange(const PhysicsFrame& frame, bool may_be_led);
+
     // The id of the nearest body above it that can be thrown; 0: none.
     std::uint64_t carrier() const { return body_->is_there() ? body_->carrier() : 0; }
     // Where the scene has it, while what carries it is moved to where physics has that: nothing of that is a
@@ -88,6 +103,10 @@ private:
     void say_problems() const;
     bool needs_a_new_twin(const SceneFrame& frame, bool shapes_changed, std::uint64_t mesh_changes);
     void send(const SceneFrame& frame, Session& session, double seconds);
+    BodyValues values(const MirrorContext& context);
+    void go_along(const SceneFrame& frame, const MirrorContext& context);
+    void exchange_led(const PhysicsFrame& frame);
+    void come_near(const PhysicsFrame& frame, bool is_near);
     void send_place(const SceneFrame& frame, Session& session, double seconds, bool is_thrown);
     bool has_other_speed(const SceneSpeed& speed) const;
     bool is_elsewhere() const;
@@ -108,7 +127,10 @@ private:
     BodyTwin twin_;
     std::uint64_t mesh_changes_ = 0;
     bool tried_ = false;
-    bool was_nowhere_ = false;  // when the newest twin was planned: there could be none
+    bool is_moved_by_engine_ = false;  // it is not still, and the engine's own physics moves it
+    bool is_near_ = false;             // a hand, in the last frame
+    LedMotion led_;                    // while it is
+    bool was_nowhere_ = false;         // when the newest twin was planned: there could be none
 };
 
 }  // namespace tactus

@@ -256,6 +256,13 @@ void BodyMirrors::show(const BodyState& state, std::uint64_t tick, Session& sess
     }
 }
 
+void BodyMirrors::exchange(const PhysicsFrame& frame) {
+    std::size_t led = 0;
+    for (BodyMirror* const mirror : thrown_) {
+        led += mirror->exchange(frame, led < max_led) ? 1 : 0;
+    }
+}
+
 std::vector<std::pair<SceneBody*, std::string>> BodyMirrors::fallen_through() const {
     std::vector<std::pair<SceneBody*, std::string>> all;
     for (const auto& soft : bodies_) {

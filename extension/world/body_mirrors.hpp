@@ -47,6 +47,9 @@ public:
 
     // Brings the session up to date.
     void synchronise(const MirrorContext& context);
+    // Where the engine's own physics moves the bodies: it is about to step, and the session's snapshot is the
+    // newest.
+    void exchange(const PhysicsFrame& frame);
     // `tick` is the tick of the snapshot that the state is from. May call a script.
     void show(const BodyState& state, std::uint64_t tick, Session& session);
     // Gives all back to the engine's own physics.

@@ -59,6 +59,8 @@ public:
     void take_narrowed(Session& session);
 
     void set_values(Session& session, const BodyValues& values);
+    // It is there, moved by corrections of the session's body.
+    void goes_to(const Pose& pose) { place_.pose = pose; }
     // One that does not move by itself is moved there within `seconds`; 0: it is put there.
     void move_to(Session& session, const Pose& pose, double seconds);
     // What a script has written of a dynamic body, as it was shown last. `axes`: see

@@ -62,6 +62,12 @@ public:
     virtual BodyForm form(const Mat3& scaling) const = 0;
     virtual BodyValues values(const BodyDefaults& defaults) = 0;
 
+    // As the engine's own physics has it in this frame.
+    virtual BodyMotion true_motion() const = 0;
+    // The engine's own physics is to push it in its next step, at its centre of mass (units: newton seconds,
+    // newton meter seconds).
+    virtual void push(const Vec3& impulse, const Vec3& turn) = 0;
+
     // The engine's own physics leaves it where it is.
     virtual void hold_still() = 0;
     // Changes of its place, and of what it is made of now, are told (BodyMirrors::news()) until let_go().

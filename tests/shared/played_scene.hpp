@@ -25,6 +25,7 @@ struct Prop {
 
     // What the mirror has asked for.
     bool is_held = false, is_listened_to = false, tells_of_moves = true;
+    Vec3 pushed{0.0}, pushed_turn{0.0};
     int forms_read = 0, times_put = 0, speeds_set = 0;
     std::vector<std::string> said;
 };
@@ -60,6 +61,13 @@ public:
         return prop_.form;
     }
     BodyValues values(const BodyDefaults&) override { return prop_.values; }
+    BodyMotion true_motion() const override {
+        return {pose_of(prop_.frame), prop_.speed.linear, prop_.speed.angular};
+    }
+    void push(const Vec3& impulse, const Vec3& turn) override {
+        prop_.pushed += impulse;
+        prop_.pushed_turn += turn;
+    }
     void hold_still() override { prop_.is_held = true; }
     void listen() override { prop_.is_listened_to = true; }
     void tell_of_moves(bool tell) override { prop_.tells_of_moves = tell; }

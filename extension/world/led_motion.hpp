@@ -1,0 +1,56 @@
+// A body that an engine's own physics moves a few dozen times a second, and its local model in the session
+// that answers hands in between (Session::lead_body): what each frame gives the one and puts right of the
+// other.
+//
+// What hands have given the model until a frame goes to the engine's body in that frame, once. So the state S
+// that the engine has in a frame contains what hands did until the frame before: the engine is the same body,
+// one frame later. S is compared with the model M as it was one frame ago, and with all that it has been
+// corrected by since:
+//
+//     e = S[n] - (M[n-1] + corrections that were not in M[n-1] yet)
+//
+// A right model has e = 0, however hard a hand presses and whatever rubs against the body. The model is put
+// right by e. The part of e in the velocity divided by the frame is the acceleration that the model did not
+// know: a spring, a wheel, a script. What two frames agree on of it acts on the model from then on; what only
+// one says, an impulse, does not.
+//
+// Plain values.
+#pragma once
+
+#include "session/session_types.hpp"
+
+namespace tactus {
+
+class LedMotion {
+public:
+    struct Frame {
+        Vec3 impulse{0.0};  // for the engine's body, at its centre of mass (unit: newton seconds)
+        Vec3 turn{0.0};     // angular, about it (unit: newton meter seconds)
+        BodyCorrection correction;
+        bool corrects = false;  // false: the model is right
+    };
+
+    // `truth`: of the engine, in this frame, before it has the impulse. `model`: as it is now. `seconds`: of
+    // a frame, > 0.
+    Frame frame(const BodyMotion& truth, const LedState& model, double seconds);
+
+    // Farther off than this within a frame, a body has been put there and has not gone (units: meters,
+    // radians).
+    static constexpr double farthest_way = 0.1;
+    static constexpr double farthest_turn = 1.0;
+
+private:
+    BodyMotion expected() const;
+
+    bool is_known_ = false;
+    LedState before_;       // one frame ago
+    BodyCorrection sent_;   // sums
+    Vec3 given_{0.0};       // to the engine's body so far
+    Vec3 given_turn_{0.0};  // angular
+    Vec3 pull_{0.0},
+        pull_before_{0.0};  // the model has been accelerated by since the last frame, the one before
+    Vec3 spin_up_{0.0}, spin_up_before_{0.0};
+    Vec3 unknown_{0.0}, unknown_spin_{0.0};  // accelerations, as of the last frame
+};
+
+}  // namespace tactus

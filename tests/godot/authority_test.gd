@@ -1,0 +1,192 @@
+extends "nodes_case.gd"
+## Worlds of which Godot's own physics moves the bodies.
+
+const FRAME := 1.0 / 60.0
+const SPEEDUP := 8
+
+
+class Jumper:
+	extends RigidBody3D
+	var frames := 0
+	var integrated := 0
+
+	func _physics_process(_delta: float) -> void:
+		frames += 1
+		if frames % 90 == 30:
+			apply_central_impulse(Vector3(0.2, 3, 0))
+
+	func _integrate_forces(_state: PhysicsDirectBodyState3D) -> void:
+		integrated += 1
+
+
+class Walker:
+	extends CharacterBody3D
+
+	func _physics_process(delta: float) -> void:
+		velocity = Vector3(0.8, velocity.y - 9.8 * delta, 0)
+		move_and_slide()
+
+
+## What a game has, and what it counts: a vehicle, a stack, an area, a character, a body with a script.
+class Game:
+	extends Node3D
+	var signals := {"entered": 0, "exited": 0, "slept": 0, "hit": 0}
+	var jumper := Jumper.new()
+	var walker := Walker.new()
+	var vehicle := VehicleBody3D.new()
+	var stack: Array[RigidBody3D] = []
+
+	func count(what: String) -> void:
+		signals[what] += 1
+
+	func build(case: Node) -> void:
+		var ground := StaticBody3D.new()
+		add_child(case.with_shape(ground, case.box(Vector3(200, 1, 200)), Vector3(0, -0.5, 0)))
+		for i in 4:
+			var block := RigidBody3D.new()
+			block.sleeping_state_changed.connect(count.bind("slept"))
+			stack.append(block)
+			add_child(case.with_shape(block, case.box(Vector3.ONE * 0.4), Vector3(0, 0.21 + 0.41 * i, 0)))
+		var area := Area3D.new()
+		area.body_entered.connect(count.bind("entered").unbind(1))
+		area.body_exited.connect(count.bind("exited").unbind(1))
+		add_child(case.with_shape(area, case.box(Vector3(1, 2, 1)), Vector3(-3, 1, 2)))
+		add_child(case.with_shape(walker, case.box(Vector3(0.4, 1, 0.4)), Vector3(-6, 0.52, 2)))
+		jumper.contact_monitor = true
+		jumper.max_contacts_reported = 4
+		jumper.body_entered.connect(count.bind("hit").unbind(1))
+		add_child(case.with_shape(jumper, case.box(Vector3.ONE * 0.3), Vector3(0, 0.2, -4)))
+		vehicle.mass = 40
+		vehicle.can_sleep = false
+		for at in [
+			Vector3(-0.4, -0.2, 0.6),
+			Vector3(0.4, -0.2, 0.6),
+			Vector3(-0.4, -0.2, -0.6),
+			Vector3(0.4, -0.2, -0.6)
+		]:
+			var wheel := VehicleWheel3D.new()
+			wheel.position = at
+			wheel.wheel_radius = 0.2
+			wheel.use_as_traction = true
+			wheel.suspension_stiffness = 60.0
+			wheel.damping_compression = 4.0
+			wheel.damping_relaxation = 6.0
+			vehicle.add_child(wheel)
+			wheel.engine_force = 20.0
+		add_child(case.with_shape(vehicle, case.box(Vector3(0.8, 0.3, 1.6)), Vector3(6, 0.6, 0)))
+
+	func places() -> Dictionary:
+		var found := {"jumper": jumper.position, "walker": walker.position, "vehicle": vehicle.position}
+		for i in stack.size():
+			found["block %d" % i] = stack[i].position
+		return found
+
+
+func add_godot_world() -> HapticWorld:
+	var world := HapticWorld.new()
+	world.clock = HapticWorld.CLOCK_STEPPED
+	world.authority = HapticWorld.AUTHORITY_GODOT
+	add_child(world)
+	return world
+
+
+## Faster than the clock: as many frames of the same length in less time.
+func _hurry(fast: bool, frames_a_second := 60) -> void:
+	Engine.physics_ticks_per_second = frames_a_second * (SPEEDUP if fast else 1)
+	Engine.time_scale = SPEEDUP if fast else 1
+	Engine.max_physics_steps_per_frame = 8 * (SPEEDUP if fast else 1)
+
+
+func _play(world: HapticWorld, game: Game, seconds: float) -> void:
+	await get_tree().physics_frame
+	game.build(self)
+	(world if world != null else self as Node).add_child(game)
+	for _i in int(seconds / FRAME):
+		await get_tree().physics_frame
+		if world != null:
+			world.advance(FRAME)
+
+
+func test_a_game_goes_on_as_without() -> void:
+	_hurry(true)
+	var alone := Game.new()
+	await _play(null, alone, 10.0)
+	var places := alone.places()
+	var signals := alone.signals.duplicate()
+	var integrated := alone.jumper.integrated
+	alone.queue_free()
+	await get_tree().physics_frame
+	var world := add_godot_world()
+	add_hand(world, path(Vector3(0, 3, 3), Vector3(1, 3, 3)))
+	var game := Game.new()
+	await _play(world, game, 10.0)
+	_hurry(false)
+	for what: String in places:
+		check_near(game.places()[what], places[what], 0.001, what)
+	check_equal(game.signals, signals, "signals")
+	check_equal(game.jumper.integrated, integrated, "calls of _integrate_forces")
+	check(absf(game.vehicle.position.z) > 5.0, "the vehicle drives to %s" % game.vehicle.position)
+	check(signals.entered == 2 and signals.exited == 1 and signals.hit > 3, "signals: %s" % signals)
+	check_equal(world.get_problems(), PackedStringArray(), "problems")
+
+
+## For four seconds; forces of each tick of 4 ms or less, which are as many at any rate.
+func _push_box(world: HapticWorld, frames_a_second: int) -> Dictionary:
+	var slippery := material(500.0)
+	slippery.friction = 0.4
+	slippery.damping = 10.0
+	add_floor(world).physics_material_override = slippery
+	var block := with_shape(RigidBody3D.new(), box(Vector3.ONE * 0.1), Vector3(0, 0.05, 0)) as RigidBody3D
+	block.mass = 0.5
+	block.physics_material_override = slippery
+	block.can_sleep = false
+	world.add_child(block)
+	var proxy := add_hand(world, path(Vector3(-0.1, 0.05, 0), Vector3(0.1, 0.05, 0), 2.0))
+	var device: HapticDevice = world.get_node("Device")
+	device.path.points_times = PackedFloat64Array([1.0, 3.0])
+	var forces := PackedVector3Array()
+	for _i in 4 * frames_a_second:
+		await get_tree().physics_frame
+		for _tick in 600 / frames_a_second:
+			world.advance(1.0 / 600.0)
+			forces.append(proxy.get_force())
+	return {"forces": forces, "place": block.position}
+
+
+func test_a_hand_pushes_what_godot_moves() -> void:
+	_hurry(true)
+	var own := add_world()
+	own.gravity = Vector3(0, -9.8, 0)
+	var there := await _push_box(own, 60)
+	own.queue_free()
+	for frames_a_second: int in {30: 0.2, 60: 0.1, 120: 0.1}:
+		_hurry(true, frames_a_second)
+		await get_tree().physics_frame
+		var world := add_godot_world()
+		var here := await _push_box(world, frames_a_second)
+		world.queue_free()
+		# While it slides; how hard a hand is held that rests depends on the last millimeter.
+		var error := 0.0
+		for i in range(900, 1800):
+			error += (there.forces[i] as Vector3).distance_to(here.forces[i]) / 900
+		check(
+			error < {30: 0.2, 60: 0.1, 120: 0.1}[frames_a_second], "%d Hz: %.3f N" % [frames_a_second, error]
+		)
+		check_near((here.place as Vector3).x, (there.place as Vector3).x, 0.002, "place")
+		check((here.place as Vector3).x > 0.15, "it went to %s" % here.place)
+	_hurry(false)
+
+
+func test_a_scripts_push_reaches_godots_body() -> void:
+	var world := add_godot_world()
+	var block := with_shape(RigidBody3D.new(), box(Vector3.ONE * 0.1), Vector3(0, 5, 0)) as RigidBody3D
+	block.gravity_scale = 0.0
+	block.linear_damp_mode = RigidBody3D.DAMP_MODE_REPLACE
+	world.add_child(block)
+	await get_tree().physics_frame
+	world.advance(FRAME)
+	world.apply_central_impulse(block, Vector3(2, 0, 0))
+	await get_tree().physics_frame
+	await get_tree().physics_frame
+	check_near(block.linear_velocity, Vector3(2, 0, 0), 1e-5, "speed")
+	check_near(world.get_linear_velocity(block), Vector3(2, 0, 0), 1e-5, "speed as the world has it")
