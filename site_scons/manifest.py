@@ -6,8 +6,12 @@ load it: `compatibility_minimum` is that API's version.
 
 import json
 import re
+import sys
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
+
+sys.path.append(str(Path(__file__).resolve().parents[1] / "tools"))
+from setup import platforms  # noqa: E402
 
 ADDON = Path("demo_project/addons/tactus")  # in the clone
 CLONE = Path(__file__).resolve().parents[1]
@@ -38,22 +42,20 @@ def installed_api_version(includes):
     return None
 
 
-def text(minimum, precision, platforms, seeing=()):
-    """`platforms`: of every library beside it; `seeing`: those of them that have the eyes' libraries, too."""
+def text(minimum, precision, systems, seeing=()):
+    """`systems`: the platforms of every library beside it; `seeing`: those of them that have the eyes' libraries, too."""
     lines = ["[configuration]", "", 'entry_symbol = "tactus_library_init"', f'compatibility_minimum = "{minimum}"']
     lines += ["reloadable = false", "", "[libraries]", ""]
-    for platform in platforms:
+    for platform in systems:
         for feature, target in TARGETS.items():
-            # A library of one precision cannot be loaded by a Godot of the other: the tag hides it.
-            tags = f"{platform.system}.{feature}.{precision}.{platform.architecture}"
-            lines.append(f'{tags} = "bin/{library(platform, target)}"')
+            lines.append(f'{_tags(platform, feature, precision)} = "bin/{library(platform, target)}"')
     if seeing:
         # Loaded by the extension itself; named here so that exported programs have them beside it.
         lines += ["", "[dependencies]", ""]
     for platform in seeing:
         for feature, target in TARGETS.items():
             eyes = ", ".join(f'"bin/{library(platform, target, name)}": ""' for name in EYES)
-            lines.append(f"{platform.system}.{feature}.{precision}.{platform.architecture} = {{{eyes}}}")
+            lines.append(f"{_tags(platform, feature, precision)} = {{{eyes}}}")
     lines += ["", "[icons]", ""]
     lines += [f'{name} = "icons/{icon.name}"' for icon in sorted((CLONE / ADDON / "icons").glob("*.svg")) for name in names(icon.stem)]
     return "\n".join(lines) + "\n"
@@ -64,6 +66,12 @@ def names(class_name):
     table = CLONE / "extension/doc_classes" / f"{class_name}.xml"
     was = ElementTree.parse(table).getroot().get("was") if table.is_file() else None
     return [class_name, was] if was else [class_name]
+
+
+def _tags(platform, feature, precision):
+    """A library of one precision cannot be loaded by a Godot of the other: the tag hides it. A universal one is for any processor."""
+    one = [] if platform.architecture == platforms.UNIVERSAL else [platform.architecture]
+    return ".".join([platform.system, feature, precision, *one])
 
 
 def write(path, content):

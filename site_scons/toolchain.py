@@ -17,7 +17,8 @@ NO_ALTERNATING_SUMS = {"x86_64": ["-fno-tree-slp-vectorize"]}
 # went there. Moves of 32 bytes begin at once.
 CLEAR_BY_MOVES = ["-mmemset-strategy=vector_loop:512:noalign,libcall:-1:noalign"]
 # gcc 12 warns of overlap inside its own std::string (-Wrestrict, its bug 105651).
-WARNINGS = ["-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Werror", "-Wno-restrict"]
+WARNINGS = ["-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Werror"]
+FALSE_WARNINGS_OF_GCC = ["-Wno-restrict"]
 
 BY_TARGET = {
     "template_debug": ["-g1"],  # assertions on: thread roles, preconditions
@@ -97,7 +98,8 @@ def compile_flags(platform, target, sanitizers=""):
     same_bits = [*SAME_BITS, *NO_ALTERNATING_SUMS.get(platform.architecture, [])]
     is_gcc = platform.system != "macos" and "fuzzer" not in sanitizers
     moves = CLEAR_BY_MOVES if is_gcc and platform.architecture == "x86_64" else []
-    plain = [*language, *optimised, *moves, *same_bits, *WARNINGS, *BY_TARGET[target], *without_places()]
+    warnings = [*WARNINGS, *(FALSE_WARNINGS_OF_GCC if is_gcc else [])]
+    plain = [*language, *optimised, *moves, *same_bits, *warnings, *BY_TARGET[target], *without_places()]
     if not sanitizers:
         return plain
     # Less inlining than -O3 for a quicker build; warnings that only watched code gives are not errors, and another
@@ -106,9 +108,10 @@ def compile_flags(platform, target, sanitizers=""):
     return [*plain, "-O1", "-fno-omit-frame-pointer", *other, *sanitize_flags(sanitizers)]
 
 
-# A unique symbol would keep the library loaded for ever, and the editor from reloading it. The linker drops the
-# sections that nobody uses: most of the engine's functions.
-SPEAKS_GODOT = ["-fno-gnu-unique", "-ffunction-sections", "-fdata-sections"]
+# The linker drops the sections without a user: most of the engine's functions.
+SPEAKS_GODOT = ["-ffunction-sections", "-fdata-sections"]
+# A unique symbol, which ELF alone has, would keep the library loaded for ever, and the editor from reloading it.
+NO_UNIQUE_SYMBOLS = {"linux": ["-fno-gnu-unique"], "windows": ["-fno-gnu-unique"], "macos": []}
 
 # Jolt is compiled without run-time type information, so what derives from its classes must be, too.
 # binding/ is large, generated and never in the loop: optimising it would take most of the first build.
@@ -120,8 +123,14 @@ FLAGS_OF_LAYER = {
     "sensing": ["-fexceptions"],
 }
 
+
+def flags_of_layer(platform, layer):
+    unique = NO_UNIQUE_SYMBOLS[platform.system] if layer in ("binding", "nodes") else []
+    return [*unique, *FLAGS_OF_LAYER.get(layer, [])]
+
+
 # Run on any processor, to say what is missing on an older one.
-ANY_PROCESSOR = {"x86_64": ["-march=x86-64"], "arm64": []}
+ANY_PROCESSOR = {"-march=x86-64-v3": ["-march=x86-64"], "-march=x86_64_v3": ["-march=x86_64"]}
 RUN_ANYWHERE = ["extension/nodes/entry.cpp", "extension/platform/processor_x86_64.cpp"]
 
 # Stands in front of the C library and of the sanitizers: it runs before these are ready.
@@ -132,7 +141,7 @@ FALSE_ALARMS = ["-Wno-maybe-uninitialized"]
 
 
 def flags_of_file(platform, source, sanitizers):
-    anywhere = ANY_PROCESSOR[platform.architecture] if source in RUN_ANYWHERE else []
+    anywhere = [flag for one in platform.machine for flag in ANY_PROCESSOR.get(one, [])] if source in RUN_ANYWHERE else []
     audit = [f"-DTACTUS_SANITIZE_{name.upper()}=1" for name in sanitizers.split(",") if name]
     return [*anywhere, *(["-fno-sanitize=all", *audit] if source in NOT_WATCHED and sanitizers else [])]
 

@@ -208,7 +208,7 @@ def scene(word: str) -> str:
 
 def _platforms(value: str) -> None:
     for name in value.split(","):
-        choose(name, [one.name for one in [platforms.host(), *platforms.FOREIGN]], "platform")
+        choose(name, platforms.names(), "platform")
 
 
 TABLE = (
@@ -293,7 +293,7 @@ TABLE = (
         "addon",
         [
             ("[--platform=NAME,…]", "one archive to unzip into any Godot project, in build/addon/"),
-            ("--all", "the same with libraries for every platform that there is a cross compiler for: Windows, ARM Linux"),
+            ("--all", "the same with libraries for every platform that there is a cross compiler for: Windows, ARM Linux, macOS"),
         ],
         options=lambda _: [Option("--platform", "NAME,…", _platforms), Option("--all")],
     ),

@@ -75,6 +75,7 @@ for extra in "$@"; do
     windows) needs g++-mingw-w64-x86-64-posix command -v x86_64-w64-mingw32-g++-posix ;;
     linux_arm64) needs g++-aarch64-linux-gnu command -v aarch64-linux-gnu-g++ ;;
     wine) needs wine64 test -x /usr/lib/wine/wine64 ;;
+    macos_*) needs llvm compgen -G '/usr/lib/llvm-*/bin/llvm-lipo' ;;
     qemu) needs qemu-user command -v qemu-aarch64 ;;
     esac
 done

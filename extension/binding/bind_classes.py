@@ -34,6 +34,7 @@ Works with this binding and with godot-cpp alike.
 
 import copy
 import os.path
+import re
 import xml.etree.ElementTree as ElementTree
 
 VARIANT_TYPES = {
@@ -65,6 +66,11 @@ def quoted_utf8(text):
 def in_words(number):
     """A number without an exponent."""
     return f"{float(number):,.9f}".rstrip("0").rstrip(".")
+
+
+def literal(text):
+    """A default as C++ has it: one that an int cannot hold is of the same type as on every system, for which Variant is made."""
+    return f"int64_t({text})" if re.fullmatch(r"-?\d+", text) and abs(int(text)) > 0x7FFFFFFF else text
 
 
 class ClassTable:
@@ -117,7 +123,7 @@ class ClassTable:
             method.set("cpp", method.get("name"))
         params = sorted(method.findall("param"), key=lambda param: int(param.get("index")))
         names = ", ".join(f'"{name}"' for name in [method.get("name"), *(param.get("name") for param in params)])
-        defaults = "".join(f", DEFVAL({param.get('default')})" for param in params if param.get("default") is not None)
+        defaults = "".join(f", DEFVAL({literal(param.get('default'))})" for param in params if param.get("default") is not None)
         function = method.get("cpp") or method.get("name")
         bind = "bind_method("
         if "static" in method.get("qualifiers", ""):

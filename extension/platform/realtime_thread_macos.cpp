@@ -8,7 +8,7 @@ namespace tactus {
 
 namespace {
 
-std::uint32_t to_mach_units(Nanoseconds span) {
+std::uint32_t policy_units(Nanoseconds span) {
     mach_timebase_info_data_t base{};
     mach_timebase_info(&base);
     return static_cast<std::uint32_t>(static_cast<std::uint64_t>(span) * base.denom / base.numer);
@@ -22,9 +22,9 @@ void request_scheduling(int priority, RealtimeReport& report) {
         return;
     }
     thread_time_constraint_policy_data_t promise{};
-    promise.period = to_mach_units(1'000'000);
-    promise.computation = to_mach_units(300'000);
-    promise.constraint = to_mach_units(600'000);
+    promise.period = policy_units(1'000'000);
+    promise.computation = policy_units(300'000);
+    promise.constraint = policy_units(600'000);
     promise.preemptible = 1;
     const kern_return_t code =
         thread_policy_set(mach_thread_self(), THREAD_TIME_CONSTRAINT_POLICY,

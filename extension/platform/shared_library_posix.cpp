@@ -1,5 +1,4 @@
 #include <dlfcn.h>
-#include <link.h>
 
 #include "platform/shared_library.hpp"
 
@@ -12,17 +11,6 @@ void* function_of_library(const std::string& library, const char* name, std::str
         error = dlerror();
     }
     return function;
-}
-
-std::string file_of_library(const std::string& library) {
-    void* const loaded = dlopen(library.c_str(), RTLD_LAZY | RTLD_LOCAL);
-    if (loaded == nullptr) {
-        return "";
-    }
-    link_map* map = nullptr;
-    const std::string file = dlinfo(loaded, RTLD_DI_LINKMAP, &map) == 0 ? map->l_name : "";
-    dlclose(loaded);
-    return file;
 }
 
 std::string path_of_this_library(const void* inside) {

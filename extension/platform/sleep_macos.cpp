@@ -7,7 +7,7 @@ namespace tactus {
 
 namespace {
 
-std::uint64_t to_mach_units(Nanoseconds span) {
+std::uint64_t wait_units(Nanoseconds span) {
     static const mach_timebase_info_data_t base = [] {
         mach_timebase_info_data_t read{};
         mach_timebase_info(&read);
@@ -26,7 +26,7 @@ SleepTimer::~SleepTimer() = default;
 void SleepTimer::sleep_until(Nanoseconds deadline) {
     const Nanoseconds left = deadline - monotonic_now();
     if (left > 0) {
-        mach_wait_until(mach_absolute_time() + to_mach_units(left));
+        mach_wait_until(mach_absolute_time() + wait_units(left));
     }
 }
 

@@ -10,7 +10,7 @@ namespace {
 // Relative to the fingertip's radius.
 constexpr double hand_size = 0.5;
 constexpr double line_size = 0.2;
-constexpr double apart = 1e-3;
+constexpr double points_apart = 1e-3;
 
 // The cylinder's frame, stretched along y over the way.
 Mat3 along(const Vec3& way, double thickness) {
@@ -27,7 +27,7 @@ HandPicture hand_picture(const HandView& view) {
     picture.proxy = {view.shows_proxy && (!view.is_running || view.is_present), view.proxy,
                      Mat3(view.radius)};
     picture.hand = {view.shows_hand && view.is_running, view.proxy + way, Mat3(hand_size * view.radius)};
-    if (glm::length(way) > apart * view.radius) {
+    if (glm::length(way) > points_apart * view.radius) {
         picture.line = {picture.hand.is_visible && view.is_present, view.proxy + 0.5 * way,
                         along(way, line_size * view.radius)};
     }

@@ -50,7 +50,6 @@ private:
     const SoftDescription description_;
     std::mutex building_;
     mutable std::mutex mutex_;  // of all below
-    bool is_built_ = false;
     Built built_;
 };
 

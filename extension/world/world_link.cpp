@@ -341,7 +341,7 @@ void WorldLink::note_refusals(Nanoseconds now) {
     const std::array<std::uint64_t, 5> counts = {
         unmet ? figures_.udp.secure.wrong_key : 0, unmet ? figures_.udp.secure.not_sealed : 0,
         link.refused.of(Refusal::sealed), link.refused.of(Refusal::wrong_version), figures_.udp.refused};
-    constexpr const char* words[] = {
+    constexpr const char* refusal_words[] = {
         "the other side has another key: give both sides the same",
         "the other side has no key: give both sides the same, or none",
         "the other side has a key and this side has none: give both sides the same",
@@ -354,7 +354,7 @@ void WorldLink::note_refusals(Nanoseconds now) {
     for (std::size_t i = 0; i < counts.size(); ++i) {
         if (counts[i] > refusals_[i]) {
             refused_until_ = now + refusal_lasts;
-            refusal_ = words[i];
+            refusal_ = refusal_words[i];
         }
     }
     refusals_ = counts;

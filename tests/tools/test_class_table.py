@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from bind_classes import OWN_ATTRIBUTES, ClassTable
+from bind_classes import OWN_ATTRIBUTES, ClassTable, literal
 
 FOLDER = Path(__file__).resolve().parents[2] / "extension" / "doc_classes"
 TABLES = [ClassTable(path) for path in sorted(FOLDER.glob("*.xml"))]
@@ -80,3 +80,9 @@ def test_a_former_name_is_deprecated_in_the_help():
     member = ElementTree.fromstring(table.help()).find(".//member[@name='stealth_let_go']")
     assert member.get("deprecated") == "Use [member stealth_release_time] instead."
     assert (member.get("setter"), member.get("getter"), member.get("type")) == ("set_stealth_let_go", "get_stealth_let_go", "float")
+
+
+def test_a_default_has_one_type_on_every_system():
+    """long is int64_t on Linux alone."""
+    assert literal("4294967295") == "int64_t(4294967295)"
+    assert [literal(text) for text in ("-1", "2147483647", "0.5", "Vector3()")] == ["-1", "2147483647", "0.5", "Vector3()"]

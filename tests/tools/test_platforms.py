@@ -66,7 +66,7 @@ def test_only_one_folder_speaks_to_the_system():
 
 
 def test_a_platform_that_is_not_known_is_told_which_are():
-    with pytest.raises(RuntimeError, match="platform=amiga: choose from linux, windows, linux_arm64"):
+    with pytest.raises(RuntimeError, match="platform=amiga: choose from linux, windows, linux_arm64, macos_x86_64, macos_arm64"):
         platforms.named("amiga")
 
 
@@ -74,7 +74,10 @@ def test_the_words_of_the_command_line_are_understood():
     assert platforms.tested_by("windows").name == "windows"
     assert platforms.tested_by("arm64").name == "linux_arm64"
     assert platforms.tested_by("cpp.core") is None
+    assert platforms.tested_by("macos") is None
     assert [one.name for one in platforms.named_in(["--platform=windows,linux_arm64"])] == ["windows", "linux_arm64"]
+    assert [one.name for one in platforms.named_in(["--platform=macos"])] == ["macos_x86_64", "macos_arm64"]
+    assert [one.name for one in platforms.named_in(["--platform=macos,macos_arm64"])] == ["macos_x86_64", "macos_arm64"]
     assert platforms.named_in(["--platform=linux"]) == []
     assert platforms.named_in(["--all"]) == platforms.FOREIGN
 
@@ -89,6 +92,7 @@ def test_the_words_of_the_command_line_are_understood():
         ("test", ["windows"], ["windows"]),
         ("test", ["arm64", "cpp.core"], ["linux_arm64"]),
         ("addon", ["--platform=windows,linux_arm64"], ["windows", "linux_arm64"]),
+        ("addon", ["--platform=macos"], ["macos_x86_64", "macos_arm64"]),
     ],
 )
 def test_only_who_asks_for_a_platform_sets_it_up(command, arguments, asked_for):
@@ -114,10 +118,17 @@ def test_an_object_names_no_folder_of_the_machine_that_built_it(target, tmp_path
 
 
 def test_godot_finds_each_platforms_library_by_its_tags():
-    text = manifest.text("4.6", "single", [platforms.host(), *platforms.FOREIGN])
+    text = manifest.text("4.6", "single", platforms.given_away([platforms.host(), *platforms.FOREIGN]))
     for line in (
         'windows.debug.single.x86_64 = "bin/libtactus.windows.template_debug.x86_64.dll"',
         'windows.release.single.x86_64 = "bin/libtactus.windows.template_release.x86_64.dll"',
         'linux.release.single.arm64 = "bin/libtactus.linux.template_release.arm64.so"',
+        'macos.release.single = "bin/libtactus.macos.template_release.universal.dylib"',
     ):
         assert line in text.splitlines()
+
+
+def test_one_slice_of_macos_is_given_away_as_it_is():
+    (arm,) = [one for one in platforms.FOREIGN if one.name == "macos_arm64"]
+    assert platforms.given_away([platforms.host(), arm]) == [platforms.host(), arm]
+    assert 'macos.debug.single.arm64 = "bin/libtactus.macos.template_debug.arm64.dylib"' in manifest.text("4.6", "single", [arm])

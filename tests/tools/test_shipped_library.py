@@ -30,6 +30,14 @@ DYNAMIC SYMBOL TABLE:
 0000000000000000      DF *UND*	0000000000000000 (GLIBC_2.2.5) free
 000000000004c860 g    DF .text	000000000000009b  Base        tactus_library_init
 """
+FOR_MACOS = """/here/libtactus.macos.template_debug.universal.dylib:
+	libtactus.macos.template_debug.arm64.dylib (compatibility version 1.0.0, current version 1.0.0)
+	/usr/lib/libSystem.B.dylib (compatibility version 1.0.0, current version 1351.0.0)
+
+Exports trie:
+0x000007C0  _tactus_library_init
+0x00019CF0  __ZdlPvm [weak_def]
+"""
 
 
 def test_what_would_have_to_lie_beside_it_is_named():
@@ -55,3 +63,15 @@ def test_a_library_without_the_door_is_not_given_away(tmp_path):
 def test_a_door_that_is_asked_for_is_none():
     asked_for = FOR_LINUX.replace("g    DF .text", "     DF *UND*")
     assert not shipped_library.described(asked_for).has_entry
+
+
+def test_a_library_of_macos_may_ask_for_the_system_alone():
+    assert shipped_library.described(FOR_MACOS).complaint("macos") == ""
+    other = FOR_MACOS.replace("\n\nExports", "\n\t@rpath/libother.dylib (compatibility version 1.0.0, current version 1.0.0)\n\nExports")
+    assert shipped_library.described(other).complaint("macos") == "needs @rpath/libother.dylib, which would have to lie beside it"
+
+
+def test_each_slice_shows_the_door():
+    slices = [shipped_library.described(text) for text in (FOR_MACOS, FOR_MACOS.replace("_tactus_library_init", "_other"))]
+    assert shipped_library.together(slices[:1]).has_entry
+    assert shipped_library.together(slices).complaint("macos") == "does not show tactus_library_init"

@@ -1,6 +1,7 @@
 """Python packages in virtual environments of the cache, each file checked by its hash.
 
-"venv" has SCons, the formatters, matplotlib, Dask, Sphinx and pytest; "mujoco" what the bench of credibility asks.
+"venv" has SCons, the formatters, matplotlib, Dask, Sphinx and pytest; "mujoco" what the bench of credibility asks; "zig" the
+compiler for macOS.
 """
 
 import shutil
@@ -10,7 +11,7 @@ from pathlib import Path
 
 from . import cache, fetching
 
-REQUIREMENTS = {"venv": "tools/requirements.txt", "mujoco": "tools/credibility/requirements.txt"}
+REQUIREMENTS = {"venv": "tools/requirements.txt", "mujoco": "tools/credibility/requirements.txt", "zig": "tools/cross/requirements.txt"}
 
 
 def is_done(name: str = "venv") -> bool:

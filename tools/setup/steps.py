@@ -10,7 +10,7 @@ from pathlib import Path
 
 import entry
 
-from . import cache, cross, godot, jolt, python_tools
+from . import cache, cross, godot, jolt, python_tools, zig
 from .platforms import Platform
 
 
@@ -43,7 +43,7 @@ def for_platforms(platforms: list[Platform]) -> list[Step]:
 
 def of_platforms(platforms: list[Platform]) -> list[Step]:
     """What other platforms need besides."""
-    steps = []
+    steps = [Step("Zig, the compiler for macOS", zig.is_done, zig.install)] if any(one.system == "macos" for one in platforms) else []
     for one in platforms:
         steps.append(Step(f"libsodium for {one.name}", lambda one=one: bool(cross.ready(one)), lambda one=one: cross.build(one)))
         steps.append(

@@ -32,7 +32,7 @@ FloatLanes entry_into(const BoxNode& from, const BoxNode& to, const FloatDrive& 
         const FloatLanes crossing = share - gap / rate;
         enter = (rate > zero) ? box_detail::most(enter, crossing) : enter;
         leave = (rate < zero) ? box_detail::least(leave, crossing) : leave;
-        leave = (rate == zero) & (gap < zero) ? splat_float(-1.0f) : leave;
+        leave = ((rate == zero) & (gap < zero)) ? splat_float(-1.0f) : leave;
     };
     const FloatLanes* const place[] = {&drive.at.x, &drive.at.y, &drive.at.z};
     const FloatLanes* const motion[] = {&drive.motion.x, &drive.motion.y, &drive.motion.z};
