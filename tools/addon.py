@@ -3,14 +3,16 @@ build/addon/tactus-VERSION.zip. It has the libraries of this machine's platform,
 """
 
 import re
+import subprocess
 import sys
 import zipfile
 from pathlib import Path
 
+import asset_library
 import build
 import entry
 import shipped_library
-from setup import cache, cross, godot, jolt, platforms
+from setup import cache, cross, godot, jolt, platforms, zig
 from setup.platforms import Platform
 
 sys.path.insert(0, str(cache.clone() / "site_scons"))
@@ -28,7 +30,10 @@ SYSTEM_NOTICES = {
 # In the libraries for depth cameras alone: the camera's driver is compiled with OpenNI2's headers.
 NOTICES_OF_EYES = {"OpenNI2 (interface to its drivers)": "/usr/share/doc/libopenni2-dev/copyright"}
 # In the libraries for one system alone.
-NOTICES_OF = {"windows": {"MinGW-w64, its C runtime and winpthreads": "/usr/share/doc/mingw-w64-x86-64-dev/copyright"}}
+NOTICES_OF = {
+    "windows": {"MinGW-w64, its C runtime and winpthreads": "/usr/share/doc/mingw-w64-x86-64-dev/copyright"},
+    "macos": {"LLVM's libc++ and libunwind": str(zig.LICENSE_OF_LIBCXX)},
+}
 
 
 def version() -> str:
@@ -44,10 +49,12 @@ def archive() -> Path:
 
 
 def pack(others: list[Platform] | None = None) -> Path:
-    """`others`: platforms besides this machine's own, whose libraries are built already."""
+    """`others`: platforms besides this machine's own, whose libraries are built already. Beside it lies the asset library's entry."""
     content = contents(others or [])
+    oldest_godot = _written(content["tactus.gdextension"].decode())[0]
     with cache.replacing(STAGE) as fresh:
         _write(content, fresh / archive().name)
+        asset_library.write(fresh, version(), oldest_godot)
     return archive()
 
 
@@ -68,7 +75,7 @@ def contents(others: list[Platform]) -> dict[str, bytes]:
         if path.is_file() and path.suffix != ".import" and ".partial" not in path.name:
             found[str(path.relative_to(FOLDER))] = path.read_bytes()
     clone = cache.clone()
-    for platform in [platforms.host(), *others]:
+    for platform in platforms.given_away([platforms.host(), *others]):
         for library in built(platform):
             if complaint := shipped_library.read(library, platform).complaint(platform.system):
                 raise RuntimeError(f"{library.name} {complaint}")
@@ -86,6 +93,9 @@ def contents(others: list[Platform]) -> dict[str, bytes]:
 
 def built(platform: Platform) -> list[Path]:
     """The platform's libraries, as far as there are any."""
+    if platform.architecture == platforms.UNIVERSAL:
+        return _joined(platform)
+
     def place(target: str) -> Path:
         variant = cache.clone() / "build" / cache.variant(target, foreign=platform.name)
         return (variant if platform.is_foreign else FOLDER) / "bin" / manifest.library(platform, target)
@@ -93,15 +103,32 @@ def built(platform: Platform) -> list[Path]:
     return [library for library in map(place, manifest.TARGETS.values()) if library.is_file()]
 
 
+def _joined(platform: Platform) -> list[Path]:
+    """The universal libraries, each joined of its slices where all are built."""
+    made = []
+    for target in manifest.TARGETS.values():
+        slices = [library for one in platforms.FOREIGN if one.system == platform.system for library in built(one) if target in library.name]
+        if len(slices) == len(platforms.ARCHITECTURES):
+            made.append(cache.clone() / "build" / cache.variant(target, foreign=platform.name) / "bin" / manifest.library(platform, target))
+            made[-1].parent.mkdir(parents=True, exist_ok=True)
+            subprocess.run([zig.llvm("llvm-lipo"), "-create", *slices, "-output", made[-1]], check=True)
+    return made
+
+
 def _description(others: list[Platform]) -> str:
     """tactus.gdextension as this machine's build has written it, for the other platforms as well."""
-    own = (FOLDER / "tactus.gdextension").read_text()
-    minimum = re.search(r'compatibility_minimum = "(.*)"', own)
-    precision = re.search(r"\.debug\.(\w+)\.", own)
+    minimum, precision = _written((FOLDER / "tactus.gdextension").read_text())
+    seeing = [platforms.host()] if has_eyes() else []
+    return manifest.text(minimum, precision, platforms.given_away([platforms.host(), *others]), seeing)
+
+
+def _written(description: str) -> tuple[str, str]:
+    """The oldest Godot and the precision of a tactus.gdextension."""
+    minimum = re.search(r'compatibility_minimum = "(.*)"', description)
+    precision = re.search(r"\.debug\.(\w+)\.", description)
     if not minimum or not precision:
         raise RuntimeError(f"{FOLDER}/tactus.gdextension names no version or no library: ./run setup writes it")
-    seeing = [platforms.host()] if has_eyes() else []
-    return manifest.text(minimum[1], precision[1], [platforms.host(), *others], seeing)
+    return minimum[1], precision[1]
 
 
 def has_eyes() -> bool:
@@ -152,7 +179,7 @@ def main(arguments: list[str]) -> int:
             print("done", flush=True)
     path = pack(others)
     print(f"{cache.shown(path)}: {path.stat().st_size / 1e6:.1f} MB, for")
-    for platform in [platforms.host(), *others]:
+    for platform in platforms.given_away([platforms.host(), *others]):
         for library in built(platform):
             glibc = shipped_library.read(library, platform).glibc
             print(f"  {library.name}" + (f", from glibc {glibc} on" if glibc else ""))

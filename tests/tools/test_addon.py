@@ -2,6 +2,7 @@
 
 import re
 import shutil
+import struct
 import subprocess
 import zipfile
 from pathlib import Path
@@ -9,6 +10,7 @@ from pathlib import Path
 import addon
 import project
 import pytest
+import shipped_library
 from setup import cache, godot, platforms
 
 # The scene of docs/addon.md, by its five steps.
@@ -160,9 +162,10 @@ def test_the_archive_names_what_is_in_it(own_project):
     description = (folder / "tactus.gdextension").read_text()
     for name in addon._libraries(description):
         assert (folder / name).is_file(), name
-    for one in [platforms.host(), *others_built()]:
+    for one in platforms.given_away([platforms.host(), *others_built()]):
+        processor = "" if one.architecture == platforms.UNIVERSAL else f".{one.architecture}"
         for target in addon.manifest.TARGETS:
-            assert f"{one.system}.{target}.single.{one.architecture} = " in description
+            assert f"{one.system}.{target}.single{processor} = " in description
 
 
 def test_the_oldest_godot_is_the_one_whose_api_was_used():
@@ -188,6 +191,22 @@ def test_what_windows_libraries_contain_besides_has_its_licence():
         pytest.skip("MinGW-w64 is not on this machine: ./run addon --platform=windows brings it")
     assert "winpthreads" in addon.notices([platforms.named("windows")])
     assert "winpthreads" not in addon.notices([platforms.host()])
+
+
+def test_macos_libraries_are_universal_and_show_the_door():
+    """As a Mac would read them; none has: docs/platforms.md."""
+    macos = platforms.given_away([one for one in others_built() if one.system == "macos"])
+    if not macos or macos[0].architecture != platforms.UNIVERSAL:
+        pytest.skip("not built here: ./run addon --platform=macos builds them")
+    libraries = addon.built(macos[0])
+    assert len(libraries) == len(addon.manifest.TARGETS)
+    for library in libraries:
+        magic, count = struct.unpack(">II", library.read_bytes()[:8])
+        assert (magic, count) == (0xCAFEBABE, 2)
+        found = shipped_library.read(library, macos[0])
+        assert found.complaint("macos") == "" and found.libraries == {"/usr/lib/libsystem.b.dylib"}
+    with pytest.raises(RuntimeError, match="is no library"):
+        shipped_library.read(Path(addon.__file__), macos[0])
 
 
 def test_first_touch_by_the_five_steps(own_project):
