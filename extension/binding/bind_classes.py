@@ -12,7 +12,7 @@ the editor never sees:
                unit         of the value, shown behind it
                hint         any other Godot hint, "NAME:STRING"
                usage        "EDITOR": shown and not stored; "STORAGE": stored and not shown
-               group        name and prefix of the group that begins here, "NAME:PREFIX"
+               group        name and prefix of the group that begins here, "NAME:PREFIX"; subgroup: the same within it
                param        name of the setter's argument
     member that is stored as it is set (its class says TACTUS_PROPERTIES, nodes/properties.hpp)
                field        where the value is in the class
@@ -22,6 +22,7 @@ the editor never sees:
                             not given)
                follows      "yes": the same is done when the resource that is the value says that it has changed
                was          the names that it had, separated by spaces; "Class.name" where it was another class's
+               was_scale    what a number under its former name is multiplied by
     member     shown        a C++ condition, seen from the class: else the inspector does not show it (the class declares
                             _validate_property)
     constant   is           the C++ value that has to be the same number
@@ -49,7 +50,7 @@ RESOURCES = {"Curve3D", "HapticVolume", "HapticGuide", "HapticMaterial", "Haptic
 OWN_ATTRIBUTES = {
     "class": ["header", "includes", "changed", "was"],
     "method": ["cpp", "hidden"],
-    "member": ["range", "unit", "hint", "usage", "group", "param", "field", "min", "max", "scale", "was", "changed", "follows", "shown"],
+    "member": ["range", "unit", "hint", "usage", "group", "subgroup", "param", "field", "min", "max", "scale", "was", "was_scale", "changed", "follows", "shown"],
     "constant": ["is", "label"],
 }
 
@@ -135,6 +136,9 @@ class ClassTable:
         if group := member.get("group"):
             title, _, prefix = group.partition(":")
             lines.append(f"ADD_GROUP({quoted(title)}, {quoted(prefix)});")
+        if subgroup := member.get("subgroup"):
+            title, _, prefix = subgroup.partition(":")
+            lines.append(f"ADD_SUBGROUP({quoted(title)}, {quoted(prefix)});")
         setter, getter = member.get("setter"), member.get("getter")
         set_by = get_by = None
         if member.get("field"):
@@ -254,7 +258,7 @@ class ClassTable:
         return (
             f'        {{"{name}", "{was}", {limits},'
             f" [](const Owner& o) {{ return stored{seconds}(o.{field}); }},"
-            f" [](Owner& o, const Variant& x) {{ store{seconds}(o.{field}, x); }}, {changed}, {follows}}},"
+            f" [](Owner& o, const Variant& x) {{ store{seconds}(o.{field}, x); }}, {changed}, {follows}, {member.get('was_scale', '1.0')}}},"
         )
 
     def wanted(self, member):

@@ -147,7 +147,7 @@ void HapticDepthSensor::open() {
         SyntheticCamera camera = synthetic_;
         camera.height = camera.width * 3 / 4;
         camera.rate = settings_.max_rate;
-        camera.depth_error = 0.01 * synthetic_error_percent_;
+        camera.depth_error = synthetic_depth_error_;
         std::string ignored;
         Node* const root =
             synthetic_scene_.is_empty() ? get_tree()->get_root() : get_node_or_null(synthetic_scene_);

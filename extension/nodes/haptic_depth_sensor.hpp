@@ -86,7 +86,7 @@ private:
     godot::String images_path_;
     bool repeats_ = true;
     godot::NodePath synthetic_scene_;
-    double synthetic_error_percent_ = 1.0;
+    double synthetic_depth_error_ = 0.01;
     SyntheticCamera synthetic_;  // with the width of any camera
     godot::PackedStringArray meshes_;
     SensorSettings settings_;    // as far as they are properties

@@ -7,6 +7,7 @@
 #include <godot_cpp/variant/packed_vector3_array.hpp>
 
 #include "core/haptics/hand_guide.hpp"
+#include "nodes/messages.hpp"
 #include "nodes/properties.hpp"
 
 namespace tactus {
@@ -19,6 +20,7 @@ public:
     TACTUS_PROPERTIES(HapticGuide)
 
     godot::String get_problem() const { return to_godot(check_guide(described())); }
+    godot::PackedStringArray get_problems() const { return list_of(get_problem()); }
     godot::Vector3 get_place(const godot::Vector3& hand) const;
     godot::Ref<godot::ArrayMesh> create_line_mesh(double thickness) const;
 

@@ -59,6 +59,15 @@ inline void warn(godot::PackedStringArray& warnings, const godot::String& effect
     }
 }
 
+// One problem as a list: empty where there is none.
+inline godot::PackedStringArray list_of(const godot::String& problem) {
+    godot::PackedStringArray problems;
+    if (!problem.is_empty()) {
+        problems.push_back(problem);
+    }
+    return problems;
+}
+
 // What to say of a path that leads to nothing of the kind.
 inline godot::String wrong_path(const char* property, const godot::NodePath& path, const char* kind) {
     return godot::String("its ") + property + " '" + godot::String(path) + "' is not " + kind +

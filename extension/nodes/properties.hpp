@@ -35,6 +35,7 @@ struct Property {
     void (*write)(Owner&, const godot::Variant&) = nullptr;
     void (*changed)(Owner&) = nullptr;  // null: nobody has to know
     const char* follows = "";           // the method that hears of changes inside of the resource
+    double was_scale = 1.0;             // a number under a former name times this is the number now
 };
 
 // Whether the value may be set; says why not.
@@ -141,6 +142,13 @@ const char* new_name_of(std::string_view old) {
     return nullptr;
 }
 
+// Times the factor, which is 1 for everything but numbers.
+inline godot::Variant scaled(const godot::Variant& value, double factor) {
+    const bool is_number =
+        value.get_type() == godot::Variant::FLOAT || value.get_type() == godot::Variant::INT;
+    return is_number && factor != 1.0 ? godot::Variant(static_cast<double>(value) * factor) : value;
+}
+
 // The same of a property that this class had under its former name (row: see Property).
 template <class Owner>
 void warn_of_former_name(const Property<Owner>& row) {
@@ -157,27 +165,28 @@ void warn_of_former_name(const Property<Owner>& row) {
 // By the number of its row. What is read is typed as the property is, and a typed script knows the property
 // by that; what is set comes as it is, so that a value of another type is refused in words and not by Godot
 // in silence. Under its former name, a property is a second one that warns.
-#define TACTUS_PROPERTIES(Class)                                                    \
-    static std::span<const tactus::Property<Class>> properties();                   \
-    template <int64_t row>                                                          \
-    void set_row(const godot::Variant& value) {                                     \
-        tactus::set_property(*this, row, value);                                    \
-    }                                                                               \
-    template <int64_t row>                                                          \
-    void row_changed() {                                                            \
-        properties()[row].changed(*this);                                           \
-    }                                                                               \
-    template <int64_t row, class Value>                                             \
-    Value get_row() const {                                                         \
-        return godot::VariantCaster<Value>::cast(tactus::get_property(*this, row)); \
-    }                                                                               \
-    template <int64_t row>                                                          \
-    void set_renamed(const godot::Variant& value) {                                 \
-        tactus::warn_of_former_name(properties()[row]);                             \
-        set_row<row>(value);                                                        \
-    }                                                                               \
-    template <int64_t row, class Value>                                             \
-    Value get_renamed() const {                                                     \
-        tactus::warn_of_former_name(properties()[row]);                             \
-        return get_row<row, Value>();                                               \
+#define TACTUS_PROPERTIES(Class)                                                                           \
+    static std::span<const tactus::Property<Class>> properties();                                          \
+    template <int64_t row>                                                                                 \
+    void set_row(const godot::Variant& value) {                                                            \
+        tactus::set_property(*this, row, value);                                                           \
+    }                                                                                                      \
+    template <int64_t row>                                                                                 \
+    void row_changed() {                                                                                   \
+        properties()[row].changed(*this);                                                                  \
+    }                                                                                                      \
+    template <int64_t row, class Value>                                                                    \
+    Value get_row() const {                                                                                \
+        return godot::VariantCaster<Value>::cast(tactus::get_property(*this, row));                        \
+    }                                                                                                      \
+    template <int64_t row>                                                                                 \
+    void set_renamed(const godot::Variant& value) {                                                        \
+        tactus::warn_of_former_name(properties()[row]);                                                    \
+        set_row<row>(tactus::scaled(value, properties()[row].was_scale));                                  \
+    }                                                                                                      \
+    template <int64_t row, class Value>                                                                    \
+    Value get_renamed() const {                                                                            \
+        tactus::warn_of_former_name(properties()[row]);                                                    \
+        const double scale = 1.0 / properties()[row].was_scale;                                            \
+        return godot::VariantCaster<Value>::cast(tactus::scaled(tactus::get_property(*this, row), scale)); \
     }

@@ -119,9 +119,12 @@ func _with_former_names(text: String) -> String:
 		if not "." in old:
 			text = text.replace('type="%s"' % now, 'type="%s"' % old)
 		elif old.get_slice(".", 0) == now.get_slice(".", 0):
-			var line := RegEx.create_from_string("(?m)^%s = " % now.get_slice(".", 1))
+			var line := RegEx.create_from_string("(?m)^%s = (.*)$" % now.get_slice(".", 1))
 			check_equal(line.search_all(text).size(), 1, "lines of %s" % now)
-			text = line.sub(text, old.get_slice(".", 1) + " = ")
+			var value := line.search(text).get_string(1)
+			if old.ends_with("_percent"):
+				value = var_to_str(100.0 * float(value))
+			text = line.sub(text, "%s = %s" % [old.get_slice(".", 1), value])
 	return text
 
 

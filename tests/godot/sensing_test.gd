@@ -58,7 +58,7 @@ func test_nothing_of_it_is_loaded_until_a_sensor_looks() -> void:
 
 func test_it_sees_points_where_the_table_is() -> void:
 	var sensor := _sensor(self)
-	sensor.synthetic_error_percent = 0.0
+	sensor.synthetic_depth_error = 0.0
 	sensor.show_cloud = true
 	add_child(sensor)
 	check(await _sees(sensor), "it says: %s" % sensor.get_state_text())
