@@ -123,6 +123,10 @@ String HapticDevice::problem() const {
     return is_inside_tree() ? to_godot(problem_of_place(frame_of(get_global_transform()))) : String();
 }
 
+HapticDevice::State HapticDevice::get_state() const {
+    return state_of<State>(!problem().is_empty(), state_.connected, HapticWorld::of(this) != nullptr);
+}
+
 String HapticDevice::get_state_text() const {
     if (const String wrong = problem(); !wrong.is_empty()) {
         return wrong;
@@ -242,6 +246,7 @@ void HapticDevice::take_state(const DeviceState& state) {
         }
         post_signal(*this, event.name, arguments);
     }
+    told_.tell(*this);
 }
 
 Workspace HapticDevice::workspace() const {

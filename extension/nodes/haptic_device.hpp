@@ -11,6 +11,7 @@
 
 #include "devices/space_mouse.hpp"
 #include "nodes/haptic_path.hpp"
+#include "nodes/node_state.hpp"
 #include "nodes/properties.hpp"
 #include "world/scene_hand.hpp"
 
@@ -22,6 +23,8 @@ class HapticDevice : public godot::Node3D {
     GDCLASS(HapticDevice, godot::Node3D)
 
 public:
+    enum State : int64_t { STATE_OFF, STATE_FAILED, STATE_WAITING, STATE_WORKING };
+
     TACTUS_PROPERTIES(HapticDevice)
 
     bool is_device_connected() const { return state_.connected; }
@@ -39,6 +42,7 @@ public:
     // Half a side of the box around the workspace, in the device's own frame; 0: it has none (unit: meters).
     double get_workspace_radius() const;
     static godot::TypedArray<godot::Dictionary> find_devices();
+    State get_state() const;
     godot::String get_state_text() const;
 
     // Puts the hand of a mouse under this point of the screen, at the depth where it is now.
@@ -99,6 +103,9 @@ private:
     std::unique_ptr<SpaceMouse> space_mouse_;  // of that driver alone
     DeviceState state_;
     godot::MeshInstance3D* box_ = nullptr;  // made when it is first seen
+    ToldState<State> told_;
 };
 
 }  // namespace tactus
+
+VARIANT_ENUM_CAST(tactus::HapticDevice::State);

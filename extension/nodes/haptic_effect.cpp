@@ -4,6 +4,7 @@
 #include <godot_cpp/variant/utility_functions.hpp>
 
 #include "nodes/conversions.hpp"
+#include "nodes/haptic_world.hpp"
 #include "nodes/messages.hpp"
 #include "nodes/proxy_choice.hpp"
 #include "nodes/proxy_pointer.hpp"
@@ -41,6 +42,14 @@ PackedStringArray HapticEffect::_get_configuration_warnings() const {
     return warnings;
 }
 
+HapticEffect::State HapticEffect::get_state() const {
+    if (!enabled_) {
+        return why_off_.is_empty() ? STATE_OFF : STATE_FAILED;
+    }
+    const bool has_world = HapticWorld::of(this) != nullptr;
+    return state_of<State>(!problem().is_empty(), has_world, has_world);
+}
+
 String HapticEffect::get_state_text() const {
     if (!enabled_) {
         return why_off_.is_empty() ? String("off") : why_off_;
@@ -60,10 +69,12 @@ String HapticEffect::get_state_text() const {
 void HapticEffect::enabled_changed() {
     why_off_ = String();
     budget_.forget();
+    told_.tell(*this);
     update_configuration_warnings();
 }
 
 std::optional<FieldMoment> HapticEffect::look(const HandMotion& hand, double time) {
+    told_.tell(*this);
     if (!enabled_ || !problem().is_empty()) {
         return std::nullopt;
     }
@@ -100,6 +111,7 @@ void HapticEffect::switch_off(const String& why) {
     why_off_ = why;
     UtilityFunctions::push_warning(name_of(*this), ": ", why, ".");
     post_signal(*this, "switched_off", {why});
+    told_.tell(*this);
 }
 
 void HapticEffect::_notification(int what) {

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/haptics/measured_field.hpp"
+#include "nodes/node_state.hpp"
 #include "nodes/properties.hpp"
 #include "world/frame_budget.hpp"
 
@@ -17,8 +18,11 @@ class HapticEffect : public godot::Node {
     GDCLASS(HapticEffect, godot::Node)
 
 public:
+    enum State : int64_t { STATE_OFF, STATE_FAILED, STATE_WAITING, STATE_WORKING };
+
     TACTUS_PROPERTIES(HapticEffect)
 
+    State get_state() const;
     godot::String get_state_text() const;
     double get_time_ms() const { return 1e3 * to_seconds(taken_); }
 
@@ -49,6 +53,9 @@ private:
     godot::String why_off_;  // by itself; empty: it is not
     Nanoseconds taken_ = 0;  // by the script, for one frame
     FrameBudget budget_;
+    ToldState<State> told_;
 };
 
 }  // namespace tactus
+
+VARIANT_ENUM_CAST(tactus::HapticEffect::State);

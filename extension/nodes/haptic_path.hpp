@@ -8,6 +8,7 @@
 #include <godot_cpp/variant/packed_vector3_array.hpp>
 
 #include "devices/hand_path.hpp"
+#include "nodes/messages.hpp"
 #include "nodes/properties.hpp"
 
 namespace tactus {
@@ -22,6 +23,7 @@ public:
     TACTUS_PROPERTIES(HapticPath)
 
     godot::String get_problem() const;
+    godot::PackedStringArray get_problems() const { return list_of(get_problem()); }
     double get_duration() const;
     godot::Vector3 sample(double time) const { return to_godot(sample_at(time).position); }
     godot::Vector3 sample_velocity(double time) const { return to_godot(sample_at(time).velocity); }

@@ -91,6 +91,11 @@ String HapticTool::hindrance() const {
                : String();
 }
 
+HapticTool::State HapticTool::get_state() const {
+    return state_of<State>(!problem().is_empty() || !problem_of_shape().is_empty(), is_present(),
+                           HapticWorld::of(this) != nullptr);
+}
+
 String HapticTool::get_state_text() const {
     for (const String& wrong : {problem(), problem_of_shape()}) {
         if (!wrong.is_empty()) {
@@ -131,6 +136,7 @@ void HapticTool::take_state(const ToolState& state, const Touched::Ids& bodies) 
     if (is_present() && has_places(get_parent_node_3d())) {
         set_global_transform(to_godot(state.pose));
     }
+    told_.tell(*this);
 }
 
 void HapticTool::clear_state() {
@@ -139,6 +145,7 @@ void HapticTool::clear_state() {
     }
     state_ = {};
     touched_.take(*this, {});
+    told_.tell(*this);
 }
 
 void HapticTool::clear_force() {

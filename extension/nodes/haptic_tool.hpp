@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "nodes/device_choice.hpp"
+#include "nodes/node_state.hpp"
 #include "nodes/properties.hpp"
 #include "nodes/touched_bodies.hpp"
 #include "session/session_types.hpp"
@@ -33,6 +34,8 @@ public:
         STATUS_WRIST_LOOSE = tool_wrist_loose
     };
 
+    enum State : int64_t { STATE_OFF, STATE_FAILED, STATE_WAITING, STATE_WORKING };
+
     TACTUS_PROPERTIES(HapticTool)
 
     godot::Vector3 get_force() const { return to_godot(state_.force); }
@@ -48,6 +51,7 @@ public:
     int64_t get_sphere_count() const;
     double get_sampling_error() const;
     godot::TypedArray<godot::Dictionary> get_contacts() const { return touched_.contacts(state_); }
+    State get_state() const;
     godot::String get_state_text() const;
 
     godot::PackedStringArray _get_configuration_warnings() const override;
@@ -100,8 +104,10 @@ private:
     ToolState state_;
     Touched touched_;
     godot::MeshInstance3D* picture_ = nullptr;
+    ToldState<State> told_;
 };
 
 }  // namespace tactus
 
 VARIANT_BITFIELD_CAST(tactus::HapticTool::Status);
+VARIANT_ENUM_CAST(tactus::HapticTool::State);

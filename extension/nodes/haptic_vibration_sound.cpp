@@ -7,6 +7,7 @@
 #include <godot_cpp/classes/xr_controller3d.hpp>
 
 #include "nodes/conversions.hpp"
+#include "nodes/haptic_world.hpp"
 #include "nodes/messages.hpp"
 #include "nodes/proxy_choice.hpp"
 #include "nodes/proxy_pointer.hpp"
@@ -44,6 +45,14 @@ const ProxyPointer* HapticVibrationSound::proxy_node() const {
 
 String HapticVibrationSound::problem() const {
     return problem_of_proxy(*this, proxy_);
+}
+
+HapticVibrationSound::State HapticVibrationSound::get_state() const {
+    if (problem().is_empty() && !is_wanted()) {
+        return STATE_OFF;
+    }
+    const bool has_world = HapticWorld::of(this) != nullptr;
+    return state_of<State>(!problem().is_empty(), has_world, has_world);
 }
 
 String HapticVibrationSound::get_state_text() const {
@@ -133,6 +142,7 @@ void HapticVibrationSound::play() {
     const MotorLevels levels = feedback_.take_levels(motors_);
     drive_motors(vibration_ ? levels : MotorLevels{});
     push_sound();
+    told_.tell(*this);
 }
 
 void HapticVibrationSound::fall_silent() {

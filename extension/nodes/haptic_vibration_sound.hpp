@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "core/feedback/touch_feedback.hpp"
+#include "nodes/node_state.hpp"
 #include "nodes/properties.hpp"
 #include "world/tick_listeners.hpp"
 
@@ -19,11 +20,13 @@ class HapticVibrationSound : public godot::Node3D {
     GDCLASS(HapticVibrationSound, godot::Node3D)
 
 public:
+    enum State : int64_t { STATE_OFF, STATE_FAILED, STATE_WAITING, STATE_WORKING };
     HapticVibrationSound();
 
     TACTUS_PROPERTIES(HapticVibrationSound)
 
     godot::Vector2 get_motor_levels() const;
+    State get_state() const;
     godot::String get_state_text() const;
 
     godot::PackedStringArray _get_configuration_warnings() const override;
@@ -60,6 +63,9 @@ private:
     TouchFeedback feedback_;
     MotorLevels levels_;
     godot::AudioStreamPlayer3D* player_ = nullptr;  // made when there is something to hear
+    ToldState<State> told_;
 };
 
 }  // namespace tactus
+
+VARIANT_ENUM_CAST(tactus::HapticVibrationSound::State);

@@ -9,6 +9,7 @@
 #include <godot_cpp/variant/vector3i.hpp>
 #include <memory>
 
+#include "nodes/messages.hpp"
 #include "nodes/properties.hpp"
 #include "world/triangle_source.hpp"
 
@@ -22,6 +23,7 @@ public:
     TACTUS_PROPERTIES(HapticVolume)
 
     godot::String get_problem() const;
+    godot::PackedStringArray get_problems() const { return list_of(get_problem()); }
     godot::Ref<godot::ArrayMesh> create_mesh() const;
 
     // Its triangles, made by the first who asks for them.

@@ -20,7 +20,7 @@ namespace {
 Dictionary dictionary_of(const BodyPoint& found, const SceneBodies& bodies) {
     Dictionary result;
     if (found.at.hit) {
-        result["body"] = bodies.node(found.index);
+        result["collider"] = result["body"] = bodies.node(found.index);
         result["position"] = to_godot(found.at.point);
         result["normal"] = to_godot(found.at.normal);
         result["distance"] = found.at.distance;

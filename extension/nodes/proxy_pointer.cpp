@@ -56,6 +56,10 @@ String ProxyPointer::problem() const {
                       : String();
 }
 
+ProxyPointer::State ProxyPointer::get_state() const {
+    return state_of<State>(!problem().is_empty(), is_present(), HapticWorld::of(this) != nullptr);
+}
+
 String ProxyPointer::get_state_text() const {
     if (const String wrong = problem(); !wrong.is_empty()) {
         return wrong;
@@ -124,6 +128,7 @@ void ProxyPointer::take_state(const ProxyState& state, const Touched::Ids& bodie
         set_global_position(to_godot(state.position));
     }
     place_pictures();
+    told_.tell(*this);
 }
 
 void ProxyPointer::clear_state() {
@@ -133,6 +138,7 @@ void ProxyPointer::clear_state() {
     state_ = {};
     touched_.take(*this, {});
     place_pictures();
+    told_.tell(*this);
 }
 
 void ProxyPointer::make_pictures() {

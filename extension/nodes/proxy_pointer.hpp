@@ -7,6 +7,7 @@
 
 #include "nodes/device_choice.hpp"
 #include "nodes/haptic_guide.hpp"
+#include "nodes/node_state.hpp"
 #include "nodes/properties.hpp"
 #include "nodes/touched_bodies.hpp"
 #include "session/session_types.hpp"
@@ -29,6 +30,8 @@ public:
         STATUS_SQUEEZED = proxy_squeezed
     };
 
+    enum State : int64_t { STATE_OFF, STATE_FAILED, STATE_WAITING, STATE_WORKING };
+
     TACTUS_PROPERTIES(ProxyPointer)
     void set_radius(double meters);
     double get_radius() const { return radius_; }
@@ -46,6 +49,7 @@ public:
     godot::BitField<Status> get_status() const { return static_cast<Status>(state_.status); }
     double get_residual() const { return state_.residual; }
     godot::TypedArray<godot::Dictionary> get_contacts() const { return touched_.contacts(state_); }
+    State get_state() const;
     godot::String get_state_text() const;
 
     godot::PackedStringArray _get_configuration_warnings() const override;
@@ -97,8 +101,10 @@ private:
     godot::MeshInstance3D* proxy_picture_ = nullptr;
     godot::MeshInstance3D* hand_picture_ = nullptr;
     godot::MeshInstance3D* line_picture_ = nullptr;
+    ToldState<State> told_;
 };
 
 }  // namespace tactus
 
 VARIANT_BITFIELD_CAST(tactus::ProxyPointer::Status);
+VARIANT_ENUM_CAST(tactus::ProxyPointer::State);

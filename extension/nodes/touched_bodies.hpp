@@ -45,8 +45,8 @@ public:
         godot::TypedArray<godot::Dictionary> contacts;
         for (std::size_t i = 0; i < static_cast<std::size_t>(state.contact_count); ++i) {
             godot::Dictionary contact;
-            contact["body"] = godot::ObjectDB::get_instance(ids_[i]);
-            contact["point"] = to_godot(state.points[i]);
+            contact["collider"] = contact["body"] = godot::ObjectDB::get_instance(ids_[i]);
+            contact["position"] = contact["point"] = to_godot(state.points[i]);
             contact["normal"] = to_godot(state.normals[i]);
             contacts.push_back(contact);
         }

@@ -63,7 +63,7 @@ func _draw_pointer(pointer: Node3D, lines: Lines) -> void:
 		lines.add(trail[i - 1], trail[i], TRAIL_COLOR)
 	lines.add_arrow(at, pointer.get_force() * FORCE_SCALE, FORCE_COLOR)
 	for contact: Dictionary in pointer.get_contacts():
-		lines.add_plane(contact.point, contact.normal, PLANE, CONTACT_COLOR)
+		lines.add_plane(contact.position, contact.normal, PLANE, CONTACT_COLOR)
 
 
 ## The smallest shine: those hold the triangles.

@@ -1,0 +1,112 @@
+extends "nodes_case.gd"
+## Every node says what it does and what is wrong with it in the same words.
+
+## With a state that the code knows, beside its text.
+const WITH_STATE := [
+	"HapticDevice",
+	"ProxyPointer",
+	"HapticTool",
+	"HapticEffect",
+	"HapticVibrationSound",
+	"MMTLink",
+	"HapticDepthSensor"
+]
+
+
+func _classes_of(base: String) -> PackedStringArray:
+	var found := PackedStringArray()
+	for name in ClassDB.get_class_list():
+		var is_own := ClassDB.class_get_api_type(name) == ClassDB.API_EXTENSION
+		var is_former := ClassDB.class_get_api_type(ClassDB.get_parent_class(name)) == ClassDB.API_EXTENSION
+		var is_internal: bool = name in ["BodyWatch", "InputWatch"] or name.begins_with("Binding")
+		if is_own and not is_former and not is_internal and ClassDB.is_parent_class(name, base):
+			found.append(name)
+	return found
+
+
+func test_every_node_lists_its_problems_and_states() -> void:
+	var nodes := _classes_of("Node")
+	check(nodes.size() > 10, "there are only %s" % [nodes])
+	for name in nodes:
+		check(ClassDB.class_has_method(name, "get_problems", true), name + " has no get_problems()")
+	for name: String in WITH_STATE:
+		check(ClassDB.class_has_method(name, "get_state", true), name + " has no get_state()")
+		check(ClassDB.class_has_method(name, "get_state_text", true), name + " has no get_state_text()")
+		check(ClassDB.class_has_signal(name, "state_changed"), name + " has no signal state_changed")
+	for name in _classes_of("Resource"):
+		if ClassDB.class_has_method(name, "get_problem", true):
+			check(ClassDB.class_has_method(name, "get_problems", true), name + " has no get_problems()")
+
+
+func test_a_hand_tells_its_states() -> void:
+	var world := add_world()
+	add_floor(world)
+	var proxy := add_hand(world, path(Vector3(0, 0.1, 0), Vector3(0, 0.005, 0), 0.5))
+	var device: HapticDevice = proxy.get_node(proxy.device)
+	var told := []
+	proxy.state_changed.connect(
+		func(state: int, text: String) -> void: told.append(["proxy", state, text == proxy.get_state_text()])
+	)
+	device.state_changed.connect(func(state: int, _text: String) -> void: told.append(["device", state]))
+	check(proxy.get_state() != ProxyPointer.STATE_WORKING, "the pointer works before a tick")
+	world.advance(0.6)
+	check_equal(proxy.get_state(), ProxyPointer.STATE_WORKING, proxy.get_state_text())
+	check_equal(device.get_state(), HapticDevice.STATE_WORKING, device.get_state_text())
+	check(told.has(["proxy", ProxyPointer.STATE_WORKING, true]), "told: %s" % [told])
+	check(told.has(["device", HapticDevice.STATE_WORKING]), "told: %s" % [told])
+	var contact: Dictionary = proxy.get_contacts()[0]
+	check(contact.collider == world.get_node("Floor") and contact.collider == contact.body, "collider")
+	check_equal(contact.position, contact.point, "position")
+	told.clear()
+	expect_error("its 'collision_mask' is empty")
+	proxy.collision_mask = 0
+	world.advance(0.02)
+	check_equal(told, [["proxy", ProxyPointer.STATE_FAILED, true]], "told")
+	check(
+		proxy.get_problems()[0].contains("'collision_mask' is empty"), "problems: %s" % proxy.get_problems()
+	)
+
+
+func test_queries_answer_in_the_words_of_godot() -> void:
+	var world := add_world()
+	var ground := add_floor(world)
+	world.advance(0.01)
+	var hit := world.intersect_ray(Vector3(0, 1, 0), Vector3(0, -1, 0), 1)
+	check_equal(hit.collider, ground, "collider")
+	check_equal(hit.body, ground, "the key of before")
+	check_near(hit.position, Vector3.ZERO, 1e-9, "position")
+	check_near(hit.normal, Vector3.UP, 1e-9, "normal")
+
+
+func test_what_follows_a_proxy_tells_its_states() -> void:
+	var world := add_world()
+	add_floor(world)
+	var proxy := add_hand(world, path(Vector3(0, 0.1, 0), Vector3(0, 0.05, 0), 0.1))
+	var script := GDScript.new()
+	script.source_code = """extends HapticEffect
+
+func _get_force(_position: Vector3, _velocity: Vector3, _time: float) -> Variant:
+	return Vector3.UP if not has_meta("broken") else NAN
+"""
+	check_equal(script.reload(), OK, "compiling")
+	var effect := HapticEffect.new()
+	effect.set_script(script)
+	var sound := HapticVibrationSound.new()
+	var told := []
+	effect.state_changed.connect(func(state: int, _text: String) -> void: told.append(state))
+	world.add_child(effect)
+	proxy.add_child(sound)
+	world.advance(0.1)
+	await frames(2)
+	check_equal(sound.get_state(), HapticVibrationSound.STATE_WORKING, sound.get_state_text())
+	sound.sound = false
+	sound.vibration = false
+	check_equal(sound.get_state(), HapticVibrationSound.STATE_OFF, sound.get_state_text())
+	expect_error("has not answered with a Vector3")
+	effect.set_meta("broken", true)
+	world.advance(0.1)
+	await frames(2)
+	check_equal(told, [HapticEffect.STATE_WORKING, HapticEffect.STATE_FAILED], "told")
+	effect.enabled = true
+	effect.enabled = false
+	check_equal(effect.get_state(), HapticEffect.STATE_OFF, effect.get_state_text())
