@@ -1,5 +1,6 @@
 #include "nodes/properties.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <godot_cpp/classes/resource.hpp>
 #include <godot_cpp/variant/callable.hpp>
@@ -50,6 +51,16 @@ bool is_allowed(const PropertyLimits& limits, const Variant& value) {
     }
 }
 
+// use(name) for each of those that are separated by spaces.
+template <class Use>
+void for_each_name(std::string_view names, const Use& use) {
+    while (!names.empty()) {
+        const std::size_t end = std::min(names.find(' '), names.size());
+        use(names.substr(0, end));
+        names.remove_prefix(std::min(end + 1, names.size()));
+    }
+}
+
 }  // namespace
 
 bool accepts(const Object& who, const char* property, const PropertyLimits& limits, const Variant& value) {
@@ -80,6 +91,21 @@ void warn_of_rename(const std::string& old, const std::string& now) {
                                        " now. The old name still works: write the new one in scenes and "
                                        "scripts before it is dropped, see CHANGELOG.md.");
     }
+}
+
+void warn_of_former_name(const StringName& class_name, std::string_view was, const char* now) {
+    const std::string of = from_godot(String(class_name)) + ".";
+    for_each_name(was, [&](std::string_view name) {
+        if (name.find('.') == std::string_view::npos) {
+            warn_of_rename(of + std::string(name), of + now);
+        }
+    });
+}
+
+bool has_name(std::string_view names, std::string_view name) {
+    bool is_there = false;
+    for_each_name(names, [&](std::string_view one) { is_there = is_there || one == name; });
+    return is_there;
 }
 
 }  // namespace tactus

@@ -3,12 +3,11 @@
 // TACTUS_PROPERTIES(Class) among its public members and nothing more.
 #pragma once
 
-#include <algorithm>
 #include <godot_cpp/core/binder_common.hpp>
 #include <godot_cpp/core/object.hpp>
 #include <godot_cpp/variant/variant.hpp>
-#include <ranges>
 #include <span>
+#include <string>
 #include <string_view>
 #include <type_traits>
 
@@ -128,15 +127,18 @@ godot::Variant get_property(const Owner& owner, int64_t index) {
 // A class or a property of an older scene or script was met under a former name. Warns once of each name,
 // from any thread.
 void warn_of_rename(const std::string& old, const std::string& now);
+// The same of a property of this class, by the names that it had (see Property::was).
+void warn_of_former_name(const godot::StringName& class_name, std::string_view was, const char* now);
 
-// The property that had this name, which may be "Class.name" (see Property::was); null: none of this class.
+// Whether it is one of the names (see Property::was).
+bool has_name(std::string_view names, std::string_view name);
+
+// The property that had this name, which may be "Class.name"; null: none of this class.
 template <class Owner>
 const char* new_name_of(std::string_view old) {
     for (const Property<Owner>& property : Owner::properties()) {
-        for (const auto name : std::views::split(property.was, ' ')) {
-            if (std::ranges::equal(name, old)) {
-                return property.name;
-            }
+        if (has_name(property.was, old)) {
+            return property.name;
         }
     }
     return nullptr;
@@ -147,17 +149,6 @@ inline godot::Variant scaled(const godot::Variant& value, double factor) {
     const bool is_number =
         value.get_type() == godot::Variant::FLOAT || value.get_type() == godot::Variant::INT;
     return is_number && factor != 1.0 ? godot::Variant(static_cast<double>(value) * factor) : value;
-}
-
-// The same of a property that this class had under its former name (row: see Property).
-template <class Owner>
-void warn_of_former_name(const Property<Owner>& row) {
-    const std::string of = from_godot(godot::String(Owner::get_class_static())) + ".";
-    for (const auto name : std::views::split(row.was, ' ')) {
-        if (std::ranges::find(name, '.') == name.end()) {
-            warn_of_rename(of + std::string(name.begin(), name.end()), of + row.name);
-        }
-    }
 }
 
 }  // namespace tactus
@@ -181,12 +172,12 @@ void warn_of_former_name(const Property<Owner>& row) {
     }                                                                                                      \
     template <int64_t row>                                                                                 \
     void set_renamed(const godot::Variant& value) {                                                        \
-        tactus::warn_of_former_name(properties()[row]);                                                    \
+        tactus::warn_of_former_name(get_class_static(), properties()[row].was, properties()[row].name);    \
         set_row<row>(tactus::scaled(value, properties()[row].was_scale));                                  \
     }                                                                                                      \
     template <int64_t row, class Value>                                                                    \
     Value get_renamed() const {                                                                            \
-        tactus::warn_of_former_name(properties()[row]);                                                    \
+        tactus::warn_of_former_name(get_class_static(), properties()[row].was, properties()[row].name);    \
         const double scale = 1.0 / properties()[row].was_scale;                                            \
         return godot::VariantCaster<Value>::cast(tactus::scaled(tactus::get_property(*this, row), scale)); \
     }
