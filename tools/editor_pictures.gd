@@ -27,6 +27,7 @@ func _ready() -> void:
 
 
 func _run() -> void:
+	await _welcome()
 	await _open("res://addons/tactus/HapticRig.tscn")
 	var root := EditorInterface.get_edited_scene_root()
 	await _look(Vector3(0.02, 0.34, 0.5), Vector3(0, 0.03, -0.02))
@@ -46,6 +47,21 @@ func _run() -> void:
 	await _warnings()
 	await _help()
 	await _panel()
+
+
+## It shows by itself in a project that is new to the editor.
+func _welcome() -> void:
+	await _frames(30)
+	var pages := get_tree().root.find_children("*", "AcceptDialog", true, false).filter(
+		func(page: AcceptDialog) -> bool: return page.visible and page.title == "Welcome to Tactus"
+	)
+	if pages.size() != 1:
+		_has_failed = true
+		printerr("the first page shows %d times" % pages.size())
+		return
+	await _picture()
+	_keep((pages[0] as AcceptDialog).get_texture().get_image(), "welcome")
+	(pages[0] as AcceptDialog).hide()
 
 
 func _gizmos() -> void:

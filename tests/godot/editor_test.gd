@@ -256,6 +256,44 @@ func _tools() -> PopupMenu:
 	return tools
 
 
+func test_the_first_page_starts_what_its_buttons_say() -> void:
+	var tools := _tools()
+	var page: AcceptDialog = tools.Welcome.new(tools)
+	add_child(page)
+	var called := []
+	for button: Button in page.find_children("*", "Button", true, false):
+		if button.text in ["Close", "Cancel", "OK"]:
+			continue
+		called.append(button.text)
+		for connection: Dictionary in button.pressed.get_connections():
+			button.pressed.disconnect(connection.callable)
+	for wanted: String in [
+		"Touch something", "Add a rig", "Check my machine", "Open the gallery", "Read the reference"
+	]:
+		check(wanted in called, wanted + " is missing")
+	await frames(2)
+	var least := page.get_contents_minimum_size()
+	check(least.x < 700.0 and least.y < 500.0, "the page is %s" % least)
+	page.free()
+
+
+func test_every_item_of_the_menu_has_its_method() -> void:
+	var tools := _tools()
+	check_equal(tools.item_count, tools.ITEMS.size(), "items")
+	for item: Array in tools.ITEMS:
+		check(tools.has_method(item[2]), item[0])
+
+
+func test_the_first_page_shows_once_for_a_project() -> void:
+	var settings := EditorInterface.get_editor_settings()
+	settings.set_project_metadata("tactus", "has_shown_welcome", null)
+	var tools := _tools()
+	check(tools.Welcome.is_new(), "a new project's is not due")
+	tools.welcome()
+	await frames(2)
+	check(not tools.Welcome.is_new(), "it would show again")
+
+
 func test_a_rig_is_added_once_and_undone() -> void:
 	var root := await _edit([])
 	check(_tools().add_rig(root).contains("has a HapticWorld already"), "a second world")

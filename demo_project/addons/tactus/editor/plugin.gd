@@ -44,11 +44,14 @@ func _enter_tree() -> void:
 	_debugger = Debugger.new(_dock)
 	_dock.watched.connect(_debugger.watch)
 	add_control_to_bottom_panel(_dock, "Tactus")
-	add_tool_submenu_item("Tactus", Tools.new(get_undo_redo()))
+	var tools := Tools.new(get_undo_redo())
+	add_tool_submenu_item("Tactus", tools)
 	add_debugger_plugin(_debugger)
 	_notices = Notices.new()
 	add_export_plugin(_notices)
 	EditorInterface.get_inspector().property_edited.connect(_redraw)
+	if Tools.Welcome.is_due():
+		tools.welcome.call_deferred()
 
 
 func _exit_tree() -> void:

@@ -4,45 +4,91 @@ extends PopupMenu
 @warning_ignore_start("inferred_declaration", "untyped_declaration", "return_value_discarded", "unsafe_cast")
 @warning_ignore_start("unsafe_method_access", "unsafe_property_access", "unsafe_call_argument")
 
+const Welcome := preload("welcome.gd")
+## What each item says, what it does, and the method that does it.
+const ITEMS := [
+	["Add Haptic Rig", "A table, a hand, a camera and light in the scene that is edited", "ask_for_rig"],
+	[
+		"Make Touchable",
+		"Puts the selected bodies and meshes below a HapticWorld, with a material",
+		"make_selection_touchable"
+	],
+	[
+		"Check My Machine",
+		"Plays a scene that measures the loop and looks for devices and their libraries",
+		"check"
+	],
+	["Welcome", "The first page: what to begin with", "welcome"],
+]
+
 var _undo_redo: EditorUndoRedoManager
 
 
 func _init(undo_redo: EditorUndoRedoManager = null) -> void:
 	_undo_redo = undo_redo
 	name = "TactusTools"
-	add_item("Add Haptic Rig")
-	set_item_tooltip(0, "A table, a hand, a camera and light in the scene that is edited")
-	add_item("Make Touchable")
-	set_item_tooltip(1, "Puts the selected bodies and meshes below a HapticWorld, with a material")
-	add_item("Check My Machine")
-	set_item_tooltip(2, "Plays a scene that measures the loop and looks for devices and their libraries")
-	index_pressed.connect(_choose)
+	for item: Array in ITEMS:
+		add_item(item[0])
+		set_item_tooltip(item_count - 1, item[1])
+	index_pressed.connect(func(index: int) -> void: call(ITEMS[index][2]))
 
 
-func _choose(index: int) -> void:
-	var problem := ""
-	match index:
-		0:
-			problem = add_rig(EditorInterface.get_edited_scene_root())
-		1:
-			var selected := EditorInterface.get_selection().get_selected_nodes()
-			problem = make_touchable(EditorInterface.get_edited_scene_root(), selected)
-		2:
-			EditorInterface.play_custom_scene(_path("check/check_machine.tscn"))
-	if not problem.is_empty():
-		var dialog := AcceptDialog.new()
-		dialog.title = "Tactus"
-		dialog.dialog_text = problem
-		dialog.visibility_changed.connect(
-			func() -> void:
-				if not dialog.visible:
-					dialog.queue_free()
-		)
-		EditorInterface.popup_dialog_centered(dialog)
+func ask_for_rig() -> void:
+	_tell(add_rig(EditorInterface.get_edited_scene_root()))
+
+
+func make_selection_touchable() -> void:
+	var selected := EditorInterface.get_selection().get_selected_nodes()
+	_tell(make_touchable(EditorInterface.get_edited_scene_root(), selected))
+
+
+func check() -> void:
+	EditorInterface.play_custom_scene(path_of("check/check_machine.tscn"))
+
+
+func play_rig() -> void:
+	EditorInterface.play_custom_scene(path_of("HapticRig.tscn"))
+
+
+func play_gallery() -> void:
+	EditorInterface.play_main_scene()
+
+
+func read_reference() -> void:
+	EditorInterface.set_main_screen_editor("Script")
+	EditorInterface.get_script_editor().goto_help("class_name:HapticWorld")
+
+
+func read_first_steps() -> void:
+	OS.shell_open(ProjectSettings.globalize_path(path_of("README.md")))
+
+
+func welcome() -> void:
+	var page := Welcome.new(self)
+	_free_when_closed(page)
+	page.show_page()
+
+
+func _tell(problem: String) -> void:
+	if problem.is_empty():
+		return
+	var dialog := AcceptDialog.new()
+	dialog.title = "Tactus"
+	dialog.dialog_text = problem
+	_free_when_closed(dialog)
+	EditorInterface.popup_dialog_centered(dialog)
+
+
+func _free_when_closed(dialog: AcceptDialog) -> void:
+	dialog.visibility_changed.connect(
+		func() -> void:
+			if not dialog.visible:
+				dialog.queue_free()
+	)
 
 
 ## Of a file of the addon, wherever that was copied to.
-func _path(file: String) -> String:
+func path_of(file: String) -> String:
 	var folder: String = (get_script() as Script).resource_path.get_base_dir()
 	return folder.path_join("..").path_join(file).simplify_path()
 
@@ -53,7 +99,7 @@ func add_rig(root: Node) -> String:
 		return "Open or make a scene first."
 	if not root.find_children("*", "HapticWorld", true, false).is_empty() or root is HapticWorld:
 		return "This scene has a HapticWorld already: add a HapticDevice and a ProxyPointer below it."
-	var rig: Node3D = (load(_path("HapticRig.tscn")) as PackedScene).instantiate()
+	var rig: Node3D = (load(path_of("HapticRig.tscn")) as PackedScene).instantiate()
 	_undo_redo.create_action("Add Haptic Rig", UndoRedo.MERGE_DISABLE, root, true)
 	_undo_redo.add_do_method(root, "add_child", rig, true)
 	_undo_redo.add_do_property(rig, "owner", root)
