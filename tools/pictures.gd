@@ -15,6 +15,7 @@ const FRAMES_SKIPPED := 5
 ## When the scripted hand touches what there is to touch: of most scenes, and of the others.
 const USUAL_SECONDS := 2.5
 const SECONDS := {
+	"still_life": 7.0,
 	"magnet": 5.0,
 	"gate": 1.5,
 	"table_edge": 1.3,

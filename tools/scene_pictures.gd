@@ -12,6 +12,7 @@ const FINDS_WITHIN := 120.0
 
 ## Of the gallery: when the scripted hand touches what there is to touch, in seconds.
 const GALLERY := {
+	"still_life": 7.0,
 	"static_testbed": 2.5,
 	"textures": 2.5,
 	"magnet": 5.0,
@@ -34,19 +35,9 @@ const GALLERY := {
 }
 ## With the mouse at a place of the rig's table.
 const RIG_TOUCHES := {"rig_ball": Vector3(-0.14, 0.06, -0.02), "rig_cushion": Vector3(0.16, 0.02, -0.03)}
-## A hand that strokes the rig's table, ball and cushion and comes back: where it goes, in the device's frame.
-const MOVING_WAY: Array[Vector3] = [
-	Vector3(0.02, -0.05, 0.06),
-	Vector3(-0.1, -0.108, 0.05),
-	Vector3(-0.16, -0.05, 0.0),
-	Vector3(-0.14, -0.04, -0.06),
-	Vector3(-0.03, -0.06, 0.02),
-	Vector3(0.06, -0.108, 0.03),
-	Vector3(0.15, -0.06, 0.0),
-	Vector3(0.17, -0.08, -0.05),
-	Vector3(0.1, -0.04, 0.04),
-]
-const MOVING_FRAMES := 72
+## Of the scene that moves: its scripted hand, once around.
+const MOVING := "still_life"
+const MOVING_FRAMES := 139
 const MOVING_STEP := 1.0 / 12.0
 const MOVING_SIZE := Vector2i(640, 360)
 ## Pages, and how long they need in real time.
@@ -79,8 +70,8 @@ func _run() -> void:
 	for called: String in RIG_TOUCHES:
 		if asked.is_empty() or called in asked:
 			await _rig(called, RIG_TOUCHES[called])
-	if asked.is_empty() or "rig_moving" in asked:
-		await _rig_moving("rig_moving")
+	if asked.is_empty() or "still_life_moving" in asked:
+		await _moving("still_life_moving")
 	for called: String in PAGES:
 		if asked.is_empty() or called in asked:
 			await _page(called, PAGES[called][0], PAGES[called][1])
@@ -109,22 +100,10 @@ func _rig(called: String, at: Vector3) -> void:
 
 
 ## One picture for each twelfth of a second.
-func _rig_moving(called: String) -> void:
-	var scene := _added(RIG)
+func _moving(called: String) -> void:
+	var scene := _added(Gallery.path_of(MOVING))
 	var worlds := Stepping.hold(scene)
-	var path := HapticPath.new()
-	path.form = HapticPath.FORM_POINTS
-	var way := PackedVector3Array(MOVING_WAY)
-	way.append(MOVING_WAY[0])
-	path.points_positions = way
-	path.points_times = PackedFloat64Array(
-		range(way.size()).map(
-			func(i: int) -> float: return i * MOVING_FRAMES * MOVING_STEP / (way.size() - 1)
-		)
-	)
-	var device: HapticDevice = scene.get_node("HapticWorld/HapticDevice")
-	device.path = path
-	device.driver = HapticDevice.DRIVER_PATH
+	(scene.get_node("Placard") as CanvasLayer).hide()
 	root.size = MOVING_SIZE
 	for frame in MOVING_FRAMES:
 		RenderingServer.render_loop_enabled = false

@@ -5,6 +5,11 @@ extends RefCounted
 ## A new one is a folder with a scene and a picture (tools/make_pictures.py) of its name, and a line here.
 
 const SCENES := {
+	"still_life":
+	[
+		"A still life",
+		"Stroke hammered bronze, glazed clay, walnut and linen, and roll the oranges: the arrow is the force."
+	],
 	"static_testbed":
 	[
 		"A sphere",
