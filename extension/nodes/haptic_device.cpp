@@ -146,8 +146,8 @@ String HapticDevice::hindrance() const {
     }
     if (kind() == HandKind::node) {
         const Node3D* led_by = target_node();
-        const bool is_near =
-            led_by == nullptr || glm::length(from_godot(led_by->get_global_position())) < farthest_hand;
+        const bool is_near = led_by == nullptr || !led_by->is_inside_tree() ||
+                             glm::length(from_godot(led_by->get_global_position())) < farthest_hand;
         return is_near ? String()
                        : String("its target is farther than 1000 km from the origin: bring it nearer");
     }

@@ -16,10 +16,14 @@ const WITH_STATE := [
 func _classes_of(base: String) -> PackedStringArray:
 	var found := PackedStringArray()
 	for name in ClassDB.get_class_list():
-		var is_own := ClassDB.class_get_api_type(name) == ClassDB.API_EXTENSION
+		if (
+			ClassDB.class_get_api_type(name) != ClassDB.API_EXTENSION
+			or not ClassDB.is_parent_class(name, base)
+		):
+			continue
 		var is_former := ClassDB.class_get_api_type(ClassDB.get_parent_class(name)) == ClassDB.API_EXTENSION
 		var is_internal: bool = name in ["BodyWatch", "InputWatch"] or name.begins_with("Binding")
-		if is_own and not is_former and not is_internal and ClassDB.is_parent_class(name, base):
+		if not is_former and not is_internal:
 			found.append(name)
 	return found
 
