@@ -22,7 +22,7 @@ CONTENTS = {
     "Guide": [
         "guide", "install", "addon", "editor", "gallery", "existing_project", "hardware", "platforms", "vr", "performance", "threads", "csharp",
         "migration", "safety", "faq", "troubleshooting", "tutorials/falcon", "tutorials/two_computers", "tutorials/depth_camera",
-        "tutorials/own_force_effect", "tutorials/own_driver", "tutorials/own_experiment", "studies",
+        "tutorials/own_force_effect", "tutorials/own_driver", "tutorials/own_experiment", "own_teleoperator", "studies",
     ],
     "Reference": ["classes/index", "godot_physics", "glossary", "wire_format", "experiments", "bundles", "bibliography"],
     "Results": [
