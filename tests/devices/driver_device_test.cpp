@@ -1,7 +1,11 @@
 #include "devices/driver_device.hpp"
 
 #include <atomic>
+#include <cstdio>
+#include <cstdlib>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "shared/driven_device.hpp"
 #include "support/process.hpp"
@@ -88,6 +92,125 @@ TEST(DriverDevice, AForceThatComesAfterTheWatchdogIsTakenAwayAgain) {
     EXPECT_EQ(device.health().let_go, 1u) << "one silence is counted once";
     force.may_go_on = true;
 }
+
+// Where a vendor's library does not return from.
+enum class Call { open, exchange, close, let_go, count };
+constexpr const char* names_of_calls[] = {"open", "exchange", "close", "let_go"};
+
+struct Hanging {
+    Call call = Call::open;
+    std::atomic<bool> has_hung{false}, may_go_on{false}, is_gone{false};
+};
+
+class HangsInACall final : public Driver {
+public:
+    explicit HangsInACall(std::shared_ptr<Hanging> hanging) : hanging_(std::move(hanging)) {}
+    ~HangsInACall() override { hanging_->is_gone = true; }
+
+    std::string open(const std::atomic<bool>&) override {
+        hang_in(Call::open);
+        return {};
+    }
+    void close() override { hang_in(Call::close); }
+    void let_go() override { hang_in(Call::let_go); }
+    // A force that has been looked at and is not renewed: the watchdog takes it away.
+    Exchange exchange(ForceSlot& forces, Nanoseconds, DriverReading& reading) override {
+        SleepTimer().sleep_until(monotonic_now() + one_tick);
+        reading.sample.connected = true;
+        reading.at = monotonic_now();
+        if (forces.living(monotonic_now()) != Vec3(0.0)) {
+            hang_in(Call::exchange);
+            if (hanging_->call == Call::let_go) {
+                wait_until([this] { return hanging_->has_hung.load(); });
+            }
+        }
+        return Exchange::reading;
+    }
+    DeviceCapabilities capabilities() const override { return {}; }
+    std::string id() const override { return "hanging"; }
+
+private:
+    void hang_in(Call call) {
+        if (hanging_->call == call && !hanging_->may_go_on) {
+            hanging_->has_hung = true;
+            wait_until([this] { return hanging_->may_go_on.load(); });
+        }
+    }
+
+    std::shared_ptr<Hanging> hanging_;
+};
+
+// Far from what a call that hangs would take here (longest_wait), and from a tenth of a second alike.
+constexpr Nanoseconds soon = 2'000 * one_tick;
+
+std::unique_ptr<DriverDevice> hanging_device(const std::shared_ptr<Hanging>& hanging) {
+    auto device = std::make_unique<DriverDevice>(std::make_unique<HangsInACall>(hanging));
+    if (hanging->call == Call::close) {
+        tick_until(*device, {0.0, 1.0, 0.0}, [](const DeviceSample& sample) { return sample.connected; });
+    } else {
+        tick_until(*device, {0.0, 1.0, 0.0}, [&](const DeviceSample&) { return hanging->has_hung.load(); });
+    }
+    return device;
+}
+
+TEST(DriverDevice, ACallThatHangsKeepsItsOwnerForATenthOfASecondAtMost) {
+    static std::string told;
+    DriverDevice::when_left_behind([](const std::string& text) { told = text; });
+    for (int call = 0; call < static_cast<int>(Call::count); ++call) {
+        const auto hanging = std::make_shared<Hanging>();
+        hanging->call = static_cast<Call>(call);
+        auto device = hanging_device(hanging);
+        told.clear();
+        const Nanoseconds before = monotonic_now();
+        device.reset();
+        EXPECT_LT(monotonic_now() - before, soon) << names_of_calls[call];
+        EXPECT_TRUE(hanging->has_hung) << names_of_calls[call];
+        EXPECT_FALSE(hanging->is_gone) << names_of_calls[call] << ": its thread still uses it";
+        EXPECT_NE(told.find("does not return from a call"), std::string::npos) << names_of_calls[call];
+        hanging->may_go_on = true;
+        EXPECT_TRUE(wait_until([&] { return hanging->is_gone.load(); })) << names_of_calls[call];
+    }
+    DriverDevice::when_left_behind(nullptr);
+}
+
+TEST(DriverDevice, AnOwnerOfDevicesOfWhichNoneReturnsLeavesThemAll) {
+    std::vector<std::shared_ptr<Hanging>> hanging;
+    std::vector<std::unique_ptr<DriverDevice>> devices;
+    for (int call = 0; call < static_cast<int>(Call::count); ++call) {
+        hanging.push_back(std::make_shared<Hanging>());
+        hanging.back()->call = static_cast<Call>(call);
+        devices.push_back(hanging_device(hanging.back()));
+    }
+    const Nanoseconds before = monotonic_now();
+    devices.clear();
+    EXPECT_LT(monotonic_now() - before, soon);
+    for (const auto& one : hanging) {
+        one->may_go_on = true;
+        EXPECT_TRUE(wait_until([&] { return one->is_gone.load(); }));
+    }
+}
+
+#if GTEST_HAS_DEATH_TEST
+
+// The system ends the threads that hang with the process.
+TEST(DriverDeviceDeathTest, AProgramQuitsWhileACallHangs) {
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
+    for (const Call call : {Call::open, Call::exchange, Call::close}) {
+        const auto quit = [call] {
+            DriverDevice::when_left_behind(
+                [](const std::string& text) { std::fprintf(stderr, "%s\n", text.c_str()); });
+            const auto hanging = std::make_shared<Hanging>();
+            hanging->call = call;
+            hanging_device(hanging).reset();
+            std::exit(hanging->may_go_on ? 1 : 7);
+        };
+        const Nanoseconds before = monotonic_now();
+        EXPECT_EXIT(quit(), ::testing::ExitedWithCode(7), "Its thread is left behind");
+        EXPECT_LT(monotonic_now() - before, longest_wait / 2) << static_cast<int>(call);
+    }
+}
+
+#endif
 
 }  // namespace
 }  // namespace tactus::driver_device_test
