@@ -7,6 +7,7 @@
 
 #include "nodes/body_reading.hpp"
 #include "nodes/conversions.hpp"
+#include "nodes/editor_probe.hpp"
 #include "nodes/godot_joint.hpp"
 #include "nodes/haptic_recorder.hpp"
 #include "nodes/messages.hpp"
@@ -270,6 +271,7 @@ void HapticWorld::_notification(int what) {
         case NOTIFICATION_POST_ENTER_TREE:
             if (!is_edited()) {
                 start();
+                show_to_editor(*this);
             }
             break;
         case NOTIFICATION_EXIT_TREE:

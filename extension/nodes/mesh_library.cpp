@@ -2,11 +2,11 @@
 
 #include <godot_cpp/classes/dir_access.hpp>
 #include <godot_cpp/classes/file_access.hpp>
-#include <godot_cpp/classes/gd_extension_manager.hpp>
 #include <godot_cpp/classes/json.hpp>
 #include <godot_cpp/variant/array.hpp>
 #include <godot_cpp/variant/dictionary.hpp>
 
+#include "nodes/addon_folder.hpp"
 #include "nodes/conversions.hpp"
 #include "world/mesh_file.hpp"
 
@@ -17,8 +17,6 @@ namespace {
 using godot::FileAccess;
 using godot::String;
 
-constexpr const char* extension_file = "tactus.gdextension";
-
 String all_names() {
     return String(", ").join(mesh_library_names());
 }
@@ -26,15 +24,7 @@ String all_names() {
 }  // namespace
 
 String mesh_library_folder() {
-    const godot::PackedStringArray loaded =
-        godot::GDExtensionManager::get_singleton()->get_loaded_extensions();
-    for (std::int64_t i = 0; i < loaded.size(); ++i) {
-        const String path = loaded[i];
-        if (path.get_file() == extension_file) {
-            return path.get_base_dir().path_join("meshes");
-        }
-    }
-    return "res://addons/tactus/meshes";
+    return addon_folder().path_join("meshes");
 }
 
 godot::PackedStringArray mesh_library_names() {

@@ -42,6 +42,24 @@ func test_the_dock_shows_a_scene_that_is_played() -> void:
 		await until(func() -> bool: return not panel.visible, 10.0)
 
 
+## The editor opens its output where a scene begins: a dock that was looked at is in front again.
+func test_the_dock_stays_in_view_when_a_scene_begins() -> void:
+	var dock := _dock()
+	var panel: Control = dock.get_node("%Panel")
+	for is_looked_at: bool in [true, false]:
+		_bring_to_front(dock)
+		if not is_looked_at:
+			dock.get_parent_control().hide()
+			dock.hide()
+		await frames(2)
+		EditorInterface.play_custom_scene("res://gallery/stack/stack.tscn")
+		check(await until(func() -> bool: return panel.visible, 60.0), "the scene does not begin")
+		await frames(20)
+		check_equal(dock.is_looked_at(), is_looked_at, "in view")
+		EditorInterface.stop_playing_scene()
+		await until(func() -> bool: return not panel.visible, 10.0)
+
+
 func _scenes(folder: String) -> PackedStringArray:
 	var found := PackedStringArray()
 	for file in DirAccess.get_files_at(folder):
@@ -71,3 +89,16 @@ func test_a_scene_that_is_saved_is_as_small_as_it_was() -> void:
 		var before := FileAccess.get_file_as_bytes(file).size()
 		var after := FileAccess.get_file_as_bytes("user://saved.tscn").size()
 		check(after < before + before / 2 + 2000, "%s: %d bytes instead of %d" % [file, after, before])
+
+
+## Its folder may be deleted without another step: no setting of the project names it but the list of plugins.
+func test_the_plugin_leaves_nothing_in_the_settings_of_the_project() -> void:
+	var enabled := EditorInterface.is_plugin_enabled("tactus")
+	check(enabled, "the plugin is not enabled")
+	for is_on: bool in [false, true]:
+		EditorInterface.set_plugin_enabled("tactus", is_on)
+		await frames(2)
+		for setting in ProjectSettings.get_property_list():
+			var value := str(ProjectSettings.get_setting(setting.name))
+			if setting.name != "editor_plugins/enabled":
+				check(not value.contains("res://addons/tactus/"), "%s is %s" % [setting.name, value])

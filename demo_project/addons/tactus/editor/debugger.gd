@@ -4,6 +4,8 @@ extends EditorDebuggerPlugin
 @warning_ignore_start("inferred_declaration", "untyped_declaration", "return_value_discarded", "unsafe_cast")
 @warning_ignore_start("unsafe_method_access", "unsafe_property_access", "unsafe_call_argument")
 
+signal begun
+
 var _dock: Control
 
 
@@ -14,6 +16,7 @@ func _init(dock: Control = null) -> void:
 func _setup_session(session_id: int) -> void:
 	var session := get_session(session_id)
 	session.started.connect(_dock.begin)
+	session.started.connect(begun.emit)
 	session.stopped.connect(_dock.end)
 
 

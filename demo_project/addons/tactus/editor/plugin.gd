@@ -18,22 +18,12 @@ const Dock := preload("dock.tscn")
 const Debugger := preload("debugger.gd")
 const Notices := preload("notices.gd")
 const Tools := preload("tools.gd")
-## What a scene that the editor starts tells the dock by.
-const PROBE := "TactusProbe"
 
 var _gizmos: Array[EditorNode3DGizmoPlugin] = []
 var _dock: Control
 var _debugger: EditorDebuggerPlugin
 var _notices: EditorExportPlugin
-
-
-func _enable_plugin() -> void:
-	var folder: String = (get_script() as Script).resource_path.get_base_dir()
-	add_autoload_singleton(PROBE, folder.path_join("../overlay/probe.gd").simplify_path())
-
-
-func _disable_plugin() -> void:
-	remove_autoload_singleton(PROBE)
+var _was_looked_at := false
 
 
 func _enter_tree() -> void:
@@ -43,6 +33,7 @@ func _enter_tree() -> void:
 	_dock = Dock.instantiate()
 	_debugger = Debugger.new(_dock)
 	_dock.watched.connect(_debugger.watch)
+	_debugger.begun.connect(_show_again)
 	add_control_to_bottom_panel(_dock, "Tactus")
 	var tools := Tools.new(get_undo_redo())
 	add_tool_submenu_item("Tactus", tools)
@@ -64,6 +55,19 @@ func _exit_tree() -> void:
 	for gizmos in _gizmos:
 		remove_node_3d_gizmo_plugin(gizmos)
 	_gizmos.clear()
+
+
+## Just before a scene is played.
+func _build() -> bool:
+	_was_looked_at = _dock.is_looked_at()
+	return true
+
+
+## Where a scene begins, the editor opens its output in front of the dock (run/bottom_panel/action_on_play).
+func _show_again() -> void:
+	if _was_looked_at:
+		make_bottom_panel_item_visible(_dock)
+	_was_looked_at = false
 
 
 func _redraw(_property: String) -> void:

@@ -1,6 +1,6 @@
 extends Node
 ## Tells the editor's Tactus dock what a scene does that the editor has started, while the dock is looked at.
-## Any other program it leaves at once.
+## The first HapticWorld of a running program adds it. Any other program it leaves at once.
 @warning_ignore_start("inferred_declaration", "untyped_declaration", "return_value_discarded", "unsafe_cast")
 @warning_ignore_start("unsafe_method_access", "unsafe_property_access", "unsafe_call_argument")
 
