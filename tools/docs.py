@@ -20,7 +20,7 @@ from setup import cache
 # Pages by the shelf they stand on beside every page. README.md is the first page.
 CONTENTS = {
     "Guide": [
-        "guide", "install", "addon", "editor", "gallery", "existing_project", "hardware", "platforms", "vr", "performance", "threads", "csharp",
+        "guide", "install", "addon", "editor", "gallery", "existing_project", "effects", "hardware", "platforms", "vr", "performance", "threads", "csharp",
         "migration", "safety", "faq", "troubleshooting", "tutorials/falcon", "tutorials/two_computers", "tutorials/depth_camera",
         "tutorials/own_force_effect", "tutorials/own_driver", "tutorials/own_experiment", "own_teleoperator", "studies",
     ],

@@ -18,6 +18,7 @@ const GALLERY := {
 	"magnet": 5.0,
 	"guide": 2.5,
 	"force_effect": 2.5,
+	"effects": 3.0,
 	"mesh_library": 2.5,
 	"globe": 2.5,
 	"field": 2.5,

@@ -29,6 +29,11 @@ const SCENES := {
 		"Your own force",
 		"A script lets water flow round a post: hold still in it, cross it, or be carried along."
 	],
+	"effects":
+	[
+		"Effects",
+		"A slider in the air: it clicks from mark to mark, rubs a little, and ends at a wall on either side."
+	],
 	"mesh_library":
 	["Meshes", "Run along rims, through holes and over edges: every triangle is felt as it is drawn."],
 	"globe":

@@ -45,7 +45,7 @@ VARIANT_TYPES = {
     "PackedInt32Array": "PACKED_INT32_ARRAY", "AABB": "AABB",
     "PackedFloat32Array": "PACKED_FLOAT32_ARRAY", "PackedFloat64Array": "PACKED_FLOAT64_ARRAY",
 }  # fmt: skip
-RESOURCES = {"Curve3D", "HapticVolume", "HapticGuide", "HapticMaterial", "HapticPath", "MMTNetworkConditions", "MMTTuning", "Material", "Mesh", "Texture2D"}
+RESOURCES = {"Curve3D", "HapticVolume", "HapticForce", "HapticGuide", "HapticMaterial", "HapticPath", "MMTNetworkConditions", "MMTTuning", "Material", "Mesh", "Texture2D"}
 
 OWN_ATTRIBUTES = {
     "class": ["header", "includes", "changed", "was"],

@@ -6,6 +6,7 @@
 
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_device.hpp"
+#include "nodes/haptic_effect.hpp"
 #include "nodes/haptic_world.hpp"
 #include "nodes/roll.hpp"
 #include "nodes/tree_walk.hpp"
@@ -98,6 +99,23 @@ void HandMirrors::synchronise(HapticDevice& node, DeviceTwin& twin, Session& ses
     }
 }
 
+namespace {
+
+HandEffects effects_on(const ProxyPointer& node, Complaints& complaints) {
+    HandEffects effects;
+    for (const HapticEffect* effect : Roll<HapticEffect>::all()) {
+        const auto form = effect->proxy_node() == &node ? effect->closed_form() : std::nullopt;
+        if (form && effects.count == HandEffects::most) {
+            complaints.say(*effect, "its hand has eight forces already: switch one of them off");
+        } else if (form) {
+            effects.items[effects.count++] = *form;
+        }
+    }
+    return effects;
+}
+
+}  // namespace
+
 void HandMirrors::synchronise(ProxyPointer& node, ProxyTwin& twin, Session& session, Complaints& complaints) {
     complaints.say(node, node.problem());
     if (node.is_kept_out()) {
@@ -106,7 +124,9 @@ void HandMirrors::synchronise(ProxyPointer& node, ProxyTwin& twin, Session& sess
                        "move the device, or the body, so that it begins in free space");
     }
     const SessionHandle device = handle_in(devices_, node.device_node());
-    complaints.say(node, twin.synchronise(session, node.description(device)));
+    ProxyDescription description = node.description(device);
+    description.effects = effects_on(node, complaints);
+    complaints.say(node, twin.synchronise(session, description));
 }
 
 void HandMirrors::synchronise(HapticTool& node, ToolTwin& twin, Session& session, Complaints& complaints,

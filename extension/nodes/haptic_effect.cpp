@@ -26,11 +26,17 @@ String HapticEffect::problem() const {
         return String();
     }
     const String without_proxy = problem_of_proxy(*this, proxy_);
-    if (!without_proxy.is_empty() || has_method(method_)) {
+    if (!without_proxy.is_empty()) {
         return without_proxy;
     }
+    if (formula_.is_valid()) {
+        return formula_->get_problem();
+    }
+    if (has_method(method_)) {
+        return String();
+    }
     return "its script has no method '" + method_ +
-           "': write one that answers with a force, a Vector3 in newtons";
+           "': set 'formula', or write one that answers with a force, a Vector3 in newtons";
 }
 
 PackedStringArray HapticEffect::_get_configuration_warnings() const {
@@ -73,9 +79,18 @@ void HapticEffect::enabled_changed() {
     update_configuration_warnings();
 }
 
+std::optional<HandEffect> HapticEffect::closed_form() const {
+    if (!enabled_ || formula_.is_null() || !problem().is_empty()) {
+        return std::nullopt;
+    }
+    const auto* const above = Object::cast_to<Node3D>(get_parent());
+    const bool has_frame = above != nullptr && Object::cast_to<ProxyPointer>(above) == nullptr;
+    return formula_->effect(has_frame ? above->get_global_transform() : Transform3D());
+}
+
 std::optional<FieldMoment> HapticEffect::look(const HandMotion& hand, double time) {
     told_.tell(*this);
-    if (!enabled_ || !problem().is_empty()) {
+    if (!enabled_ || !has_method(method_) || !problem().is_empty()) {
         return std::nullopt;
     }
     const Nanoseconds begun = monotonic_now();

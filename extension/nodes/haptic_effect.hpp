@@ -4,7 +4,9 @@
 #include <godot_cpp/variant/node_path.hpp>
 #include <optional>
 
+#include "core/haptics/hand_effect.hpp"
 #include "core/haptics/measured_field.hpp"
+#include "nodes/haptic_force.hpp"
 #include "nodes/node_state.hpp"
 #include "nodes/properties.hpp"
 #include "world/frame_budget.hpp"
@@ -13,7 +15,8 @@ namespace tactus {
 
 class ProxyPointer;
 
-// A force on the hand that a script computes, once a frame: the haptic thread never calls a script.
+// A force on the hand: in closed form, or as a script computes it, once a frame. The haptic thread never
+// calls a script.
 class HapticEffect : public godot::Node {
     GDCLASS(HapticEffect, godot::Node)
 
@@ -31,7 +34,8 @@ public:
     // --- for the world that it is in
 
     const ProxyPointer* proxy_node() const;
-    godot::String problem() const;  // empty where there is none
+    godot::String problem() const;                  // empty where there is none
+    std::optional<HandEffect> closed_form() const;  // nothing where it has none, or is off
     // What the script says of that hand, at this time of the world (unit: seconds); nothing where it is off,
     // or has been switched off by this. The script may free whatever it likes but this node.
     std::optional<FieldMoment> look(const HandMotion& hand, double time);
@@ -46,6 +50,7 @@ private:
     void switch_off(const godot::String& why);
 
     godot::NodePath proxy_;
+    godot::Ref<HapticForce> formula_;
     godot::String method_ = "_get_force";
     double budget_ms_ = 1.0;
     bool enabled_ = true;

@@ -15,6 +15,7 @@ struct Workspace {
     double force_scale = 1.0;    // of forces: newtons of the device for each of the scene, > 0
     double edge_speed = 0.0;     // see drift_at_edge (unit: meters per second)
     Vec3 torque{0.0};            // that the scene gives to the handle, in the scene (unit: newton meters)
+    Vec3 force{0.0};             // to the hand, besides what touch gives (unit: newtons)
 };
 
 inline Vec3 into_scene(const Workspace& workspace, const Vec3& point) {

@@ -254,7 +254,11 @@ inline constexpr int members<SoftFinger> = 3;
 template <>
 inline constexpr int members<HandGuide> = 5;
 template <>
-inline constexpr int members<ProxyDescription> = 6;
+inline constexpr int members<HandEffect> = 11;
+template <>
+inline constexpr int members<HandEffects> = 2;
+template <>
+inline constexpr int members<ProxyDescription> = 7;
 template <>
 inline constexpr int members<FieldMoment> = 5;
 template <>
@@ -266,7 +270,7 @@ inline constexpr int members<ToolSphere> = 2;
 template <>
 inline constexpr int members<ToolShape> = 4;
 template <>
-inline constexpr int members<Workspace> = 8;
+inline constexpr int members<Workspace> = 9;
 template <>
 inline constexpr int members<BodyPush> = 4;
 template <>
@@ -457,6 +461,10 @@ struct LastOf<ForceLaw> {
 template <>
 struct LastOf<HandGuide::Form> {
     static constexpr HandGuide::Form value = HandGuide::Form::way;
+};
+template <>
+struct LastOf<HandEffect::Form> {
+    static constexpr HandEffect::Form value = HandEffect::Form::wall;
 };
 template <>
 struct LastOf<Derivation> {

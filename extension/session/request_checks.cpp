@@ -70,11 +70,26 @@ std::string check_workspace(const Workspace& w) {
     constexpr double least_scale = 1.0 / limits::farthest;
     return limits::is_pose(w.pose) && w.scale > 0.0 && w.scale <= limits::farthest && w.force_limit >= 0.0 &&
                    w.force_scale >= least_scale && w.force_scale <= limits::farthest && w.edge_speed >= 0.0 &&
-                   w.edge_speed <= limits::fastest && limits::is_place(w.torque)
+                   w.edge_speed <= limits::fastest && limits::is_place(w.torque) && limits::is_place(w.force)
                ? ""
-               : "the device's workspace has no place, no scale above 0, no force limit, no edge speed or no "
-                 "torque: reset its transform and these";
+               : "the device's workspace has no place, no scale above 0, no force limit, no edge speed, no "
+                 "torque or no force: reset its transform and these";
 }
+
+namespace {
+
+std::string check_leading(const ProxyDescription& d) {
+    std::string error = check_guide(d.guide);
+    if (d.effects.count > HandEffects::most) {
+        return "a hand has more than eight effects: take some away";
+    }
+    for (std::size_t i = 0; i < d.effects.count && error.empty(); ++i) {
+        error = check_effect(d.effects.items[i]);
+    }
+    return error;
+}
+
+}  // namespace
 
 std::string check_proxy(const ProxyDescription& d) {
     if (!is_proxy_radius(d.settings.radius)) {
@@ -83,7 +98,7 @@ std::string check_proxy(const ProxyDescription& d) {
     return d.finger.modulus >= 0.0 && std::isfinite(d.finger.modulus) && d.finger.radius > 0.0 &&
                    d.finger.radius <= limits::longest_arm && d.finger.stiffness >= 0.0 &&
                    d.finger.stiffness <= limits::stiffest
-               ? check_guide(d.guide)
+               ? check_leading(d)
                : "the finger's modulus or stiffness is below 0 or its radius is no positive length: set them "
                  "anew";
 }

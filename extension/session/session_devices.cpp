@@ -142,6 +142,7 @@ void SessionLoop::write_devices(Nanoseconds now) {
         if (!slot.device) {
             continue;
         }
+        slot.force += slot.workspace.force;
         const Vec3 asked = slot.force;
         const Vec3 asked_of_device = force_on_device(slot.workspace, asked);
         const SafetySample sample = safety_sample(slot, i);
@@ -211,6 +212,8 @@ SafetySample SessionLoop::safety_sample(DeviceSlot& slot, std::size_t index) con
     sample.enabled = !slot.workspace.clutch;
     sample.seconds = seconds_;
     sample.source = std::max(0.0, seconds_ * glm::dot(slot.fading.force_offset(), slot.heard.velocity));
+    sample.source += energy_on_device(
+        slot.workspace, std::max(0.0, seconds_ * glm::dot(slot.workspace.force, slot.hand_velocity)));
     for (const ProxySlot& proxy : proxies_) {
         if (proxy.proxy && proxy.description.device == index && (!side_ || side_->simulates())) {
             const double added = seconds_ * glm::dot(proxy.state.force - proxy.pressed, slot.hand_velocity);
@@ -247,6 +250,41 @@ SessionLoop::Lead SessionLoop::lead(ProxySlot& slot, const LoopLag& lag, double 
     lead.stiffness = safe_wall(lag, 0.5 * damping, {guide.stiffness, 0.0}).stiffness;
     lead.force = guide_force(slot.hand - place, guide.range, lead.stiffness);
     return lead;
+}
+
+// Like a guide, a field has half of what is left, and walls have the rest: a script's and the effects, each
+// as much of it as it is steep.
+SessionLoop::Field SessionLoop::field(ProxySlot& slot, const LoopLag& lag, double unled,
+                                      Nanoseconds now) const {
+    const HandEffects& effects = slot.description.effects;
+    const DeviceSlot& device = devices_[slot.description.device];
+    const HandMotion motion{slot.hand, slot.hand_velocity};
+    const Wall computed = slot.field.begin_tick(now);
+    Wall wanted = computed;
+    for (std::size_t i = 0; i < effects.count; ++i) {
+        const Wall steep = steepest(effects.items[i]);
+        wanted.stiffness += steep.stiffness;
+        wanted.damping += steep.damping;
+    }
+    const Wall bounded{std::min(wanted.stiffness, HandField::stiffest), wanted.damping};
+    Field field{.wall = safe_wall(lag, 0.5 * unled, bounded)};
+    const double stiff = wanted.stiffness > 0.0 ? field.wall.stiffness / wanted.stiffness : 1.0;
+    const double damped = wanted.damping > 0.0 ? field.wall.damping / wanted.damping : 1.0;
+    const double most_damping =
+        device.capabilities.feels
+            ? std::min(HandField::thickest,
+                       damping_in_scene(device.workspace, device.capabilities.max_damping))
+            : HandField::thickest;
+    const Wall safe{computed.stiffness * stiff, computed.damping * damped};
+    field.force = slot.field.force(motion, effects.count > 0 ? safe : field.wall, most_damping);
+    for (std::size_t i = 0; i < effects.count; ++i) {
+        field.force +=
+            effect_force(weakened(effects.items[i], stiff, damped), motion, now, slot.effect_memory[i]);
+    }
+    for (std::size_t i = effects.count; i < HandEffects::most; ++i) {
+        slot.effect_memory[i] = {};  // what comes next begins anew
+    }
+    return field;
 }
 
 // For the owner to tell: which wall was not safe.

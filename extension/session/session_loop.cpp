@@ -258,6 +258,7 @@ void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
     if (!is_held(slot)) {
         slot.force = slot.effects.besides = Vec3(0.0);
         slot.torsion.count = 0;
+        slot.effect_memory = {};
         slot.proxy->restart();
         slot.walls = {};
         const ProxyState before = std::exchange(slot.state, {});
@@ -280,16 +281,9 @@ void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
     const LoopLag lag{seconds_, device.capabilities.delay};
     const Lead led = lead(slot, lag, damping);
     const double unled = damping - damping_needed(led.stiffness, lag);
-    // Like a guide, a field has half of what is left, and walls have the rest.
     const HandMotion motion{slot.hand, slot.hand_velocity};
-    const Wall field = safe_wall(lag, 0.5 * unled, slot.field.begin_tick(now));
-    const double most_damping =
-        device.capabilities.feels
-            ? std::min(HandField::thickest,
-                       damping_in_scene(device.workspace, device.capabilities.max_damping))
-            : HandField::thickest;
-    const Vec3 field_force = slot.field.force(motion, field, most_damping);
-    const double left = unled - damping_needed(field.stiffness, lag) - field.damping;
+    const Field field = this->field(slot, lag, unled, now);
+    const double left = unled - damping_needed(field.wall.stiffness, lag) - field.wall.damping;
     force = contact_force(scene_, slot.proxy->touching(), tick.slide, slot.hand_velocity, seconds_,
                           {lag, left, slot.description.finger.stiffness});
     slot.pressed = force.total;
@@ -301,12 +295,12 @@ void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
         smooth(force, slot.force_before - slot.effects.besides);
     }
     const double max_change = max_pull_rate * seconds_ / device.workspace.force_scale;
-    slot.effects.besides = led.force + field_force +
+    slot.effects.besides = led.force + field.force +
                            gradual_pull(attract(slot, false), max_change, magnet_changes_, slot.effects);
     slot.force = force.total + slot.effects.besides;
     slot.step = step_of(slot);
-    slot.step.stiffness += led.stiffness + field.stiffness;
-    slot.step.damping += field.damping;
+    slot.step.stiffness += led.stiffness + field.wall.stiffness;
+    slot.step.damping += field.wall.damping;
     slot.sliding = (tick.status & proxy_sliding) != 0;
     hold_against_turning(slot);
     status_ |= tick.status & proxy_unfinished ? static_cast<TickStatus>(session_proxy_unfinished) : 0u;

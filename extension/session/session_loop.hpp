@@ -85,6 +85,7 @@ public:
         bool sliding = false;
         bool idle = false;  // a side says that nobody holds it: it touches nothing
         EffectMemory effects;
+        std::array<HandEffectMemory, HandEffects::most> effect_memory;
         HandField field;       // that its owner computes, see Session::set_hand_field
         bool changed = false;  // by its owner since the last tick: its guide, or where its hand is
         TorsionList torsion;   // one each of `parts`; none where the finger is a point
@@ -328,6 +329,12 @@ private:
         bool jumped = false;     // it may be another one than the hand's way makes it
     };
     Lead lead(ProxySlot& slot, const LoopLag& lag, double damping) const;
+    // What computations and effects give the hand besides touch and a guide.
+    struct Field {
+        Vec3 force{0.0};  // (unit: newtons)
+        Wall wall;        // how steep that is
+    };
+    Field field(ProxySlot& slot, const LoopLag& lag, double unled, Nanoseconds now) const;
     void hold_against_turning(ProxySlot& slot) const;
     void note_walls(const ProxySlot& slot, DeviceSlot& device) const;
     void break_surfaces(ProxySlot& slot, const HandForce& force);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/haptics/force_law.hpp"
+#include "core/haptics/hand_effect.hpp"
 #include "core/haptics/hand_field.hpp"
 #include "core/haptics/hand_guide.hpp"
 #include "core/math/body_motion.hpp"
@@ -47,8 +48,9 @@ struct ProxyDescription {
     SessionHandle device = no_handle;
     ProxySettings settings;
     ForceLaw force_law = ForceLaw::spring;
-    SoftFinger finger;  // what bodies are held by against turning
-    HandGuide guide;    // leads the hand, besides what it touches
+    SoftFinger finger;         // what bodies are held by against turning
+    HandGuide guide;           // leads the hand, besides what it touches
+    HandEffects effects = {};  // act on the hand
     bool enabled = true;
 };
 

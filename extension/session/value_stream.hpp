@@ -133,6 +133,9 @@ void decompose(Aggregate& value, Take&& take) {
     } else if constexpr (count == 8) {
         auto& [a, b, c, d, e, f, g, h] = value;
         take(a, b, c, d, e, f, g, h);
+    } else if constexpr (count == 9) {
+        auto& [a, b, c, d, e, f, g, h, i] = value;
+        take(a, b, c, d, e, f, g, h, i);
     } else if constexpr (count == 10) {
         auto& [a, b, c, d, e, f, g, h, i, j] = value;
         take(a, b, c, d, e, f, g, h, i, j);

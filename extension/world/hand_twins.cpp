@@ -9,13 +9,14 @@ namespace {
 bool same(const Workspace& a, const Workspace& b) {
     return a.pose.position == b.pose.position && a.pose.rotation == b.pose.rotation && a.scale == b.scale &&
            a.force_limit == b.force_limit && a.clutch == b.clutch && a.dead_man == b.dead_man &&
-           a.force_scale == b.force_scale && a.edge_speed == b.edge_speed && a.torque == b.torque;
+           a.force_scale == b.force_scale && a.edge_speed == b.edge_speed && a.torque == b.torque &&
+           a.force == b.force;
 }
 
 bool same(const ProxyDescription& a, const ProxyDescription& b) {
     return a.device == b.device && a.settings.radius == b.settings.radius &&
            a.settings.mask == b.settings.mask && a.force_law == b.force_law && a.finger == b.finger &&
-           a.guide == b.guide && a.enabled == b.enabled;
+           a.guide == b.guide && a.effects == b.effects && a.enabled == b.enabled;
 }
 
 bool same(const ToolUse& a, const ToolUse& b) {

@@ -13,6 +13,7 @@ const CLASSES: Array[String] = [
 	"HapticMaterial",
 	"HapticPath",
 	"HapticVolume",
+	"HapticForce",
 	"HapticGuide",
 	"MMTNetworkConditions",
 	"MMTTuning"

@@ -151,6 +151,10 @@ func _shows_haptic_volume(scene: Node) -> bool:
 	return scene.triangles > 1000
 
 
+func _shows_haptic_force(scene: Node) -> bool:
+	return _added(scene, "World/Pointer", "HapticEffect").formula.form == HapticForce.FORM_DETENT
+
+
 func _shows_haptic_guide(scene: Node) -> bool:
 	return scene.get_node("World/Pointer").guide.get_problem().is_empty()
 
