@@ -96,6 +96,7 @@ func _get_force(_position: Vector3, _velocity: Vector3, _time: float) -> Variant
 	var effect := HapticEffect.new()
 	effect.set_script(script)
 	var sound := HapticVibrationSound.new()
+	sound.sound = false
 	var told := []
 	effect.state_changed.connect(func(state: int, _text: String) -> void: told.append(state))
 	world.add_child(effect)
@@ -103,7 +104,6 @@ func _get_force(_position: Vector3, _velocity: Vector3, _time: float) -> Variant
 	world.advance(0.1)
 	await frames(2)
 	check_equal(sound.get_state(), HapticVibrationSound.STATE_WORKING, sound.get_state_text())
-	sound.sound = false
 	sound.vibration = false
 	check_equal(sound.get_state(), HapticVibrationSound.STATE_OFF, sound.get_state_text())
 	expect_error("has not answered with a Vector3")
