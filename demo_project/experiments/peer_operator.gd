@@ -6,6 +6,7 @@ extends SceneTree
 ##
 ## --way=PATH         a HapticPath that the hand follows once it sets out
 ## --device.NAME=VALUE  a property of the HapticDevice
+## --tuning.NAME=VALUE  a property of the MMTLink's MMTTuning
 ## --NAME=VALUE       a property of the MMTLink
 ##
 ## Each line of the standard input is a command: `step` advances the world by one tick, `go` lets the hand set
@@ -30,6 +31,7 @@ func _initialize() -> void:
 	RenderingServer.render_loop_enabled = false
 	_world.clock = HapticWorld.CLOCK_STEPPED
 	_link.side = MMTLink.SIDE_OPERATOR
+	_link.tuning = MMTTuning.new()
 	_device.name = "Device"
 	_pointer.radius = 0.01
 	_way = _rest_at(Vector3(0, 0.1, 0))
@@ -54,6 +56,8 @@ func _take(argument: String) -> String:
 		return "" if _way != null else "%s is refused: it must be a HapticPath" % argument
 	if argument.begins_with("--device."):
 		return Sides.set_property(_device, "--" + argument.trim_prefix("--device."))
+	if argument.begins_with("--tuning."):
+		return Sides.set_property(_link.tuning, "--" + argument.trim_prefix("--tuning."))
 	return Sides.set_property(_link, argument)
 
 

@@ -4,7 +4,7 @@ extends RefCounted
 
 ## Sets --NAME=VALUE at a node; a text needs no quotes. Empty, or why it was refused: what the node has
 ## afterwards counts.
-static func set_property(node: Node, word: String) -> String:
+static func set_property(node: Object, word: String) -> String:
 	var at := word.find("=")
 	var name := word.substr(2, at - 2)
 	if not word.begins_with("--") or at < 3 or not name in node:

@@ -1,22 +1,32 @@
 """Scenario 3: the operator's hand moves a robot in a real place, and feels what the robot runs into (thesis 4.4.1).
 
-    ./run experiment scenario3 [--seconds=10]
+    ./run experiment scenario3 [--seconds=10] [--robot=mujoco]
 
 The robot is emulated (extension/devices/emulated_robot.hpp): a delta arm with a Falcon's geometry, encoders and motors,
 friction and backlash, in a world of its own. The operator's arm means to follow a path through a ground and is pushed back.
+--robot=mujoco: the same operator, a Godot process, leads a sphere on three slide joints in a place that MuJoCo simulates
+(measuring/mujoco_place.py), over UDP and in virtual time.
 
 traditional_robot.DELAYms.*                   round trip of so much, forces as they come
 traditional_robot_CONTROLLER.DELAYms.*        with a passivity controller at both ends
+mujoco_robot.DELAYms.*, mujoco_robot_CONTROLLER.DELAYms.*   the same in MuJoCo
 
 position_error_rms_mm   of the robot's tip from the operator's hand that it answers
 force_error_mean_N      of what the hand feels from what it would feel there itself
 energy_J                that the hand was given beyond what it had put in
+
+In MuJoCo besides, where direct contact is the same robot without a link:
+
+energy_at_hand_J, energy_at_robot_J   what the ports were given on balance
+link_energy_created_J   the most that both ports were given together
+contact_share, contacts               of the ticks in contact, and how often contact began; direct_*: of direct contact
 """
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal
 
-from measuring import options, rivals, teleop_runs
+from measuring import mujoco_runs, options, rivals, teleop_processes, teleop_runs
 from measuring.teleop_scene import Scene
 
 DELAYS = (0, 25, 50, 100, 200)  # there and back (milliseconds)
@@ -30,6 +40,7 @@ FIGURES = {
 @dataclass(frozen=True)
 class Settings:
     seconds: float = options.seconds(10.0)
+    robot: Literal["emulated", "mujoco"] = "emulated"
 
 
 def cases(description: dict, settings: Settings) -> list[teleop_runs.Case]:
@@ -44,9 +55,34 @@ def cases(description: dict, settings: Settings) -> list[teleop_runs.Case]:
     ]  # fmt: skip
 
 
+def mujoco_cases(description: dict, settings: Settings) -> list[dict]:
+    """Passivity as MMTTuning has it: 0 none, 2 time domain, both sides with its own defaults."""
+    arm = {f"device.{name}": value for name, value in description["arm"].items()}
+    operator = {"way": description["path"], "device.driver": teleop_processes.SIMULATED_ARM, "device.force_limit": 10, **arm}
+    bodies = mujoco_runs.bodies_of(Scene(description["scene"]))
+    return [
+        {
+            "name": f"mujoco_robot{way}.{delay}ms", "passivity": passivity, "delay_ms": delay, "seconds": settings.seconds,
+            "bodies": bodies, "operator": operator,
+        }
+        for way, passivity in (("", 0), ("_time_domain", 2))
+        for delay in DELAYS
+    ]  # fmt: skip
+
+
+def in_mujoco(description: dict, settings: Settings) -> dict[str, object]:
+    if advice := mujoco_runs.advice():
+        print(advice)
+        return {"skipped": advice}
+    found = mujoco_runs.run(mujoco_cases(description, settings))
+    return {f"{case}.{key}": value for case, one in found.items() for key, value in one.items()}
+
+
 def run(given: dict[str, str], output: Path) -> dict[str, object]:
     settings = options.parse(Settings, given)
     description = teleop_runs.description("scenario3")
+    if settings.robot == "mujoco":
+        return in_mujoco(description, settings)
     lines = Scene(description["scene"]).along(description["path"])
     found = teleop_runs.run(description["scene"], cases(description, settings), output, lines=lines)
     return {f"{case}.{name}": one[key] for case, one in found.items() for name, key in FIGURES.items()}
