@@ -92,3 +92,19 @@ def test_a_relative_cache_counts_as_none(tmp_path, monkeypatch):
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "named"))
     assert cache.root() == tmp_path / "named/tactus"
     assert os.listdir(tmp_path) == []
+
+
+def test_what_python_compiles_is_kept_in_the_cache_and_not_between_the_sources(tmp_path, monkeypatch):
+    def venv_bin(name: str) -> Path:
+        return Path(sys.executable).parent / name
+
+    monkeypatch.setattr(cache, "root", lambda: tmp_path / "cache")
+    monkeypatch.setattr(cache, "clone", lambda: tmp_path / "clone")
+    monkeypatch.setattr(cache, "venv_bin", venv_bin)
+    tools = tmp_path / "clone/tools"
+    tools.mkdir(parents=True)
+    (tools / "imported.py").write_text("")
+    (tools / "tool.py").write_text("import imported")
+    assert cache.run_tool("tool.py") == 0
+    assert _names(tools) == ["imported.py", "tool.py"]
+    assert [path.name.partition(".")[0] for path in (tmp_path / "cache/pycache" / tools.relative_to("/")).iterdir()] == ["imported"]

@@ -28,7 +28,7 @@ DESCRIPTION = {
     "experiment": "linked_touch",
     "measures": ["force_error_mean_N"],
     "seeds": [3, 1, 4, 5, 9],
-    "options": {"seconds": 1.5, "hand_shift": 0.005, "mass": 1.2, "jitter": 3},
+    "options": {"seconds": 0.5, "hand_shift": 0.005, "mass": 1.2, "jitter": 3},
     "factors": {"way": ["traditional", "default"], "delay": [0, 10, 20, 50, 100], "loss": [0, 0.2]},
 }
 SMALL = DESCRIPTION | {"seeds": [1, 2], "factors": {"delay": [0, 20, 50]}}
@@ -130,6 +130,7 @@ def test_a_killed_sweep_leaves_nothing_half_and_goes_on(hundred, tmp_path, monke
     running = subprocess.Popen([sys.executable, script, given, folder], env=environment, stdout=subprocess.PIPE, start_new_session=True)
     while len(list((folder / "runs").glob("*.json"))) < 20:
         assert running.poll() is None
+        time.sleep(0.01)
     running.kill()
     running.wait()
     kept = {path.stem for path in (folder / "runs").glob("*.json")}
@@ -144,7 +145,7 @@ def test_a_killed_sweep_leaves_nothing_half_and_goes_on(hundred, tmp_path, monke
 
 def test_what_is_done_is_kept_when_a_level_is_added(six, tmp_path, monkeypatch):
     sweep, expected = six
-    assert command.play(sweep, tmp_path / "out", Settings(workers=2)) == 0
+    assert command.play(sweep, tmp_path / "out", Settings(workers=1)) == 0
     assert (tmp_path / "out/sweep.csv").read_text() == expected
     played = []
     monkeypatch.setattr(playing, "play", lambda runs, *_: played.extend(runs))
@@ -158,14 +159,14 @@ def test_what_is_done_is_kept_when_a_level_is_added(six, tmp_path, monkeypatch):
 def test_a_damaged_and_a_partly_written_result_are_told_and_played_again(six, tmp_path, capsys):
     sweep, expected = six
     folder = tmp_path / "out"
-    assert command.play(sweep, folder, Settings(workers=2)) == 0
+    assert command.play(sweep, folder, Settings(workers=1)) == 0
     first, second, third, *_ = sorted((folder / "runs").glob("*.json"))
     first.write_text(first.read_text()[:200])
     second.write_text(re.sub(r'("force_error_mean_N": \d*\.?)\d', r"\g<1>7", second.read_text()))
     third.write_text("[]")
     (folder / "runs/0123.partial").write_text('{"check"')
     capsys.readouterr()
-    assert command.play(sweep, folder, Settings(workers=2)) == 0
+    assert command.play(sweep, folder, Settings(workers=1)) == 0
     told = capsys.readouterr().out
     assert all(f"{path} is damaged" in told for path in (first, second, third, folder / "runs/0123.partial"))
     assert "3 of them done before" in told

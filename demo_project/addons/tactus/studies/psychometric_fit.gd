@@ -46,8 +46,9 @@ func add(difference: float, is_right: bool) -> void:
 func result() -> Dictionary:
 	var step := log(HIGHEST / LOWEST) / (THRESHOLDS - 1)
 	var posterior := PackedFloat64Array()
+	var priors := _log_priors()
 	for i in THRESHOLDS:
-		_append_logarithms(posterior, log(LOWEST) + i * step)
+		_append_logarithms(posterior, log(LOWEST) + i * step, priors)
 	var largest := -INF
 	for value in posterior:
 		largest = maxf(largest, value)
@@ -73,29 +74,35 @@ func result() -> Dictionary:
 
 
 ## Of prior times likelihood at one threshold, for each slope and each lapse rate.
-func _append_logarithms(posterior: PackedFloat64Array, log_threshold: float) -> void:
+func _append_logarithms(
+	posterior: PackedFloat64Array, log_threshold: float, priors: PackedFloat64Array
+) -> void:
 	for slope in SLOPES:
 		var missed := PackedFloat64Array()
 		for difference: float in _asked:
 			missed.append(exp(-log(2.0) * exp(slope * (log(difference) - log_threshold))))
-		for i in LAPSES.size():
-			var value := _log_prior(slope, LAPSE_PRIOR[i])
+		for lapse in LAPSES:
+			var value := priors[posterior.size() % priors.size()]
 			var place := 0
 			for difference: float in _asked:
 				# A wrong answer at a difference that nothing but a lapse could miss rules that out, and no more.
-				var wrong := maxf(0.5 * LAPSES[i] + (1.0 - LAPSES[i]) * 0.5 * missed[place], RAREST)
+				var wrong := maxf(0.5 * lapse + (1.0 - lapse) * 0.5 * missed[place], RAREST)
 				var right: int = _right[difference]
 				value += right * log(1.0 - wrong) + (_asked[difference] - right) * log(wrong)
 				place += 1
 			posterior.append(value)
 
 
-## Normalized over the grid.
-static func _log_prior(slope: float, lapse_prior: float) -> float:
+## Of each slope and each lapse rate, normalized over the grid.
+static func _log_priors() -> PackedFloat64Array:
 	var sum := 0.0
-	for one in SLOPES:
-		sum += _slope_weight(one)
-	return log(_slope_weight(slope) / sum * lapse_prior / THRESHOLDS)
+	for slope in SLOPES:
+		sum += _slope_weight(slope)
+	var priors := PackedFloat64Array()
+	for slope in SLOPES:
+		for lapse_prior in LAPSE_PRIOR:
+			priors.append(log(_slope_weight(slope) / sum * lapse_prior / THRESHOLDS))
+	return priors
 
 
 static func _slope_weight(slope: float) -> float:
