@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/soft/whole_turn.hpp"
+
 namespace tactus {
 
 namespace {
@@ -16,13 +18,6 @@ constexpr double still_speed = 2e-6;
 constexpr int turns_a_step = 2;
 // Rounds in which contacts that feel each other come to agree.
 constexpr int contact_rounds = 16;
-
-Lanes row_of(const Vec3& v) {
-    return Lanes{v.x, v.y, v.z, 0.0};
-}
-Vec3 vector_of(const Lanes& row) {
-    return {row[0], row[1], row[2]};
-}
 
 // Four rows of x, y, z as four lanes of each.
 LanesVec3 gathered(const std::vector<Lanes>& rows, const std::array<std::uint32_t, 4>& node) {
@@ -267,14 +262,24 @@ void SoftBody::iterate() {
     const Lanes ahead = splat(model.design.material.damping / model.design.seconds);
     for (std::size_t n = 0; n < next_.size(); ++n) {
         seen_[n] = multiply_add(next_[n] - place_[n], ahead, next_[n]);
-        right_[n] = (inertial_[n] - next_[n]) * splat(model.mass[n] * inverse_square);
+        right_[n] = splat(0.0);
     }
     add_tetrahedra();
     add_springs();
+    const WholeTurn whole(model, next_, right_, 1.0 + ahead[0]);
     for (std::size_t n = 0; n < next_.size(); ++n) {
-        right_[n] = model.held[n] != 0 ? splat(0.0) : right_[n];
+        const Lanes inertial = (inertial_[n] - next_[n]) * splat(model.mass[n] * inverse_square);
+        right_[n] = model.held[n] != 0 ? splat(0.0) : right_[n] + inertial;
+    }
+    const Vec3 angle = whole.by_forces(right_);
+    for (std::size_t n = 0; n < next_.size(); ++n) {
+        right_[n] -= row_of(whole.way(angle, n) * (model.mass[n] * inverse_square));
     }
     model.factor.solve(right_);
+    const Vec3 turned = angle - whole.by_ways(right_);
+    for (std::size_t n = 0; n < next_.size(); ++n) {
+        right_[n] += row_of(whole.way(turned, n));
+    }
     for (std::size_t n = 0; n < next_.size(); ++n) {
         next_[n] += right_[n];
     }

@@ -33,6 +33,26 @@ Gradients gradients_of(std::span<const Vec3> nodes, const Tetrahedron& t) {
     return {{-(inverse[0] + inverse[1] + inverse[2]), inverse[0], inverse[1], inverse[2]}};
 }
 
+FreeTurn free_turn_of(const SoftModel& model) {
+    const double nothing = 1e-9 * model.size;
+    FreeTurn free;
+    for (std::size_t i = 0; i < model.rest.size(); ++i) {
+        const Vec3 from_pivot = model.rest[i] - free.pivot;
+        const double distance = glm::length(from_pivot);
+        if (model.held[i] == 0) {
+            continue;
+        }
+        if (free.about == FreeTurn::About::itself) {
+            free = {FreeTurn::About::place, model.rest[i], Vec3(0.0)};
+        } else if (free.about == FreeTurn::About::place && distance > nothing) {
+            free = {FreeTurn::About::line, free.pivot, from_pivot / distance};
+        } else if (glm::length(glm::cross(free.axis, from_pivot)) > nothing) {
+            return {FreeTurn::About::nothing};
+        }
+    }
+    return free;
+}
+
 class Assembly {
 public:
     Assembly(SoftDraft&& draft, SoftDesign&& design)
@@ -119,6 +139,7 @@ private:
                 }
             }
         }
+        model.free_turn = free_turn_of(model);
     }
 
     void add_entry(std::uint32_t a, std::uint32_t b, double value) {

@@ -89,10 +89,25 @@ struct SpringGroup {
     Lanes length;     // L (unit: meters)
 };
 
+// How a body can turn as a whole, where it is held.
+struct FreeTurn {
+    enum class About : std::uint8_t {
+        itself,   // held nowhere
+        place,    // held in one place
+        line,     // held in places of one line
+        nothing,  // held so that it cannot
+    };
+
+    About about = About::itself;
+    Vec3 pivot{0.0};  // of a place or a line
+    Vec3 axis{0.0};   // of a line, unit
+};
+
 struct SoftModel {
     std::vector<Vec3> rest;          // nodes, in the order of elimination
     std::vector<double> mass;        // of the nodes (unit: kilograms)
     std::vector<std::uint8_t> held;  // by node: not 0 where it stays
+    FreeTurn free_turn;
     std::vector<TetGroup> tetrahedra;
     std::vector<SpringGroup> springs;
     std::vector<SoftAnchor> anchors;  // by vertex of the surface
