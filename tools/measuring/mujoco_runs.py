@@ -9,7 +9,7 @@ from measuring.teleop_scene import Scene
 from setup import cache, fetching, python_tools
 
 # Of another run on this machine there are other ports.
-_PORT = 32000 + os.getpid() % 400 * 32
+_PORT = 20000 + os.getpid() % 600 * 20
 
 
 def advice() -> str:
