@@ -1,7 +1,7 @@
 @tool
 extends MeshInstance3D
-## A shape as a lathe turns it: its outline goes around the y axis. The HapticMesh beside it is touched as the
-## same triangles.
+## A shape as a lathe turns it: its outline goes around the y axis. A HapticMesh that names this node as its
+## mesh_instance is touched as the same triangles.
 
 const SIDES := 96
 const STEPS := 6
@@ -12,8 +12,6 @@ const STEPS := 6
 	set(value):
 		outline = value
 		_turn()
-## What is touched; a HapticMesh.
-@export var touch: NodePath
 
 
 func _ready() -> void:
@@ -24,9 +22,6 @@ func _turn() -> void:
 	if outline.size() < 3 or not is_node_ready():
 		return
 	mesh = turned(_smooth(outline))
-	var touched := get_node_or_null(touch) as HapticMesh
-	if touched != null:
-		touched.mesh = mesh
 
 
 static func turned(line: PackedVector2Array) -> ArrayMesh:

@@ -61,5 +61,6 @@ func test_a_scene_gives_a_hand_a_force_besides() -> void:
 	world.advance(0.2)
 	world.advance(0.1)
 	check_near(device.get_force(), Vector3(0, 0, 1.5), 1e-4, "force")
+	expect_error("applied_force = (0.0, nan, 0.0) was refused")
 	device.applied_force = Vector3(0, NAN, 0)
 	check_near(device.applied_force, Vector3(0, 0, 1.5), 1e-6, "what is no number is refused")

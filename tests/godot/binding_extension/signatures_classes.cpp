@@ -19,6 +19,7 @@
 #include <godot_cpp/classes/cylinder_shape3d.hpp>
 #include <godot_cpp/classes/dir_access.hpp>
 #include <godot_cpp/classes/engine.hpp>
+#include <godot_cpp/classes/engine_debugger.hpp>
 #include <godot_cpp/classes/file_access.hpp>
 #include <godot_cpp/classes/gd_extension_manager.hpp>
 #include <godot_cpp/classes/generic6_dof_joint3d.hpp>
@@ -39,12 +40,14 @@
 #include <godot_cpp/classes/node3d.hpp>
 #include <godot_cpp/classes/object.hpp>
 #include <godot_cpp/classes/physics_body3d.hpp>
+#include <godot_cpp/classes/physics_direct_body_state3d.hpp>
 #include <godot_cpp/classes/physics_material.hpp>
 #include <godot_cpp/classes/physics_server3d.hpp>
 #include <godot_cpp/classes/primitive_mesh.hpp>
 #include <godot_cpp/classes/project_settings.hpp>
 #include <godot_cpp/classes/rendering_server.hpp>
 #include <godot_cpp/classes/resource.hpp>
+#include <godot_cpp/classes/resource_loader.hpp>
 #include <godot_cpp/classes/rigid_body3d.hpp>
 #include <godot_cpp/classes/scene_tree.hpp>
 #include <godot_cpp/classes/skeleton3d.hpp>
@@ -155,6 +158,9 @@ void list_classes() {
     same<double (Engine::*)()>(&Engine::get_time_scale);
     same<int32_t (Engine::*)() const>(&Engine::get_physics_ticks_per_second);
 
+    same<EngineDebugger* (*)()>(&EngineDebugger::get_singleton);
+    same<bool (EngineDebugger::*)()>(&EngineDebugger::is_active);
+
     same<PackedByteArray (*)(const String&)>(&FileAccess::get_file_as_bytes);
     same<PackedByteArray (FileAccess::*)(int64_t) const>(&FileAccess::get_buffer);
     same<Ref<FileAccess> (*)(const String&, FileAccess::ModeFlags)>(&FileAccess::open);
@@ -261,6 +267,7 @@ void list_classes() {
     same<bool (Node::*)() const>(&Node::is_inside_tree);
     same<bool (Node::*)(Node*) const>(&Node::is_ancestor_of);
     same<double (Node::*)() const>(&Node::get_process_delta_time);
+    same<double (Node::*)() const>(&Node::get_physics_process_delta_time);
     same<int32_t (Node::*)(bool) const>(&Node::get_child_count);
     same<void (Node::*)()>(&Node::_enter_tree);
     same<void (Node::*)()>(&Node::_exit_tree);
@@ -270,6 +277,7 @@ void list_classes() {
     same<void (Node::*)(Node*, bool, Node::InternalMode)>(&Node::add_child);
     same<void (Node::*)(bool)>(&Node::set_process);
     same<void (Node::*)(bool)>(&Node::set_process_internal);
+    same<void (Node::*)(bool)>(&Node::set_physics_process_internal);
     same<void (Node::*)(const Ref<InputEvent>&)>(&Node::_input);
     same<void (Node::*)(const Ref<InputEvent>&)>(&Node::_shortcut_input);
     same<void (Node::*)(const Ref<InputEvent>&)>(&Node::_unhandled_input);
@@ -307,9 +315,14 @@ void list_classes() {
     same<void (Object::*)()>(&Object::notify_property_list_changed);
     same<void (Object::*)(const StringName&, const Callable&)>(&Object::disconnect);
     same<void (Object::*)(const StringName&, const Variant&)>(&Object::set);
+    same<void (Object::*)(const Variant&)>(&Object::set_script);
 
     same<TypedArray<PhysicsBody3D> (PhysicsBody3D::*)()>(&PhysicsBody3D::get_collision_exceptions);
     same<bool (PhysicsBody3D::*)(PhysicsServer3D::BodyAxis) const>(&PhysicsBody3D::get_axis_lock);
+
+    same<Transform3D (PhysicsDirectBodyState3D::*)() const>(&PhysicsDirectBodyState3D::get_transform);
+    same<Vector3 (PhysicsDirectBodyState3D::*)() const>(&PhysicsDirectBodyState3D::get_angular_velocity);
+    same<Vector3 (PhysicsDirectBodyState3D::*)() const>(&PhysicsDirectBodyState3D::get_linear_velocity);
 
     same<bool (PhysicsMaterial::*)() const>(&PhysicsMaterial::is_absorbent);
     same<bool (PhysicsMaterial::*)() const>(&PhysicsMaterial::is_rough);
@@ -319,8 +332,11 @@ void list_classes() {
     same<void (PhysicsMaterial::*)(float)>(&PhysicsMaterial::set_friction);
 
     same<PhysicsServer3D* (*)()>(&PhysicsServer3D::get_singleton);
+    same<PhysicsDirectBodyState3D* (PhysicsServer3D::*)(const RID&)>(&PhysicsServer3D::body_get_direct_state);
     same<PhysicsServer3D::BodyMode (PhysicsServer3D::*)(const RID&) const>(&PhysicsServer3D::body_get_mode);
     same<void (PhysicsServer3D::*)(const RID&, PhysicsServer3D::BodyMode)>(&PhysicsServer3D::body_set_mode);
+    same<void (PhysicsServer3D::*)(const RID&, const Vector3&)>(&PhysicsServer3D::body_apply_central_impulse);
+    same<void (PhysicsServer3D::*)(const RID&, const Vector3&)>(&PhysicsServer3D::body_apply_torque_impulse);
 
     same<Array (PrimitiveMesh::*)() const>(&PrimitiveMesh::_create_mesh_array);
 
@@ -345,6 +361,11 @@ void list_classes() {
     same<void (Resource::*)()>(&Resource::emit_changed);
     same<void (Resource::*)(const String&) const>(&Resource::_set_path_cache);
 
+    same<ResourceLoader* (*)()>(&ResourceLoader::get_singleton);
+    same<Ref<Resource> (ResourceLoader::*)(const String&, const String&, ResourceLoader::CacheMode)>(
+        &ResourceLoader::load);
+    same<bool (ResourceLoader::*)(const String&, const String&)>(&ResourceLoader::exists);
+
     same<Ref<PhysicsMaterial> (RigidBody3D::*)() const>(&RigidBody3D::get_physics_material_override);
     same<RigidBody3D::CenterOfMassMode (RigidBody3D::*)() const>(&RigidBody3D::get_center_of_mass_mode);
     same<RigidBody3D::DampMode (RigidBody3D::*)() const>(&RigidBody3D::get_angular_damp_mode);
@@ -368,6 +389,10 @@ void list_classes() {
     same<void (RigidBody3D::*)(bool)>(&RigidBody3D::set_freeze_enabled);
     same<void (RigidBody3D::*)(const Vector3&)>(&RigidBody3D::set_angular_velocity);
     same<void (RigidBody3D::*)(const Vector3&)>(&RigidBody3D::set_linear_velocity);
+    same<void (RigidBody3D::*)(const Vector3&)>(&RigidBody3D::apply_torque);
+    same<void (RigidBody3D::*)(const Vector3&)>(&RigidBody3D::apply_torque_impulse);
+    same<void (RigidBody3D::*)(const Vector3&, const Vector3&)>(&RigidBody3D::apply_force);
+    same<void (RigidBody3D::*)(const Vector3&, const Vector3&)>(&RigidBody3D::apply_impulse);
     same<void (RigidBody3D::*)(float)>(&RigidBody3D::set_mass);
 
     same<Node* (SceneTree::*)() const>(&SceneTree::get_edited_scene_root);

@@ -238,6 +238,7 @@ void list_values() {
     constructor<Variant, const char*>();
     constructor<Variant, double>();
     constructor<Variant, int64_t>();
+    same<Variant& (Variant::*)(const Variant&)>(&Variant::operator=);
     constructor<Variant>();
     same<AABB (Variant::*)() const>(&Variant::operator godot::AABB);
     same<Array (Variant::*)() const>(&Variant::operator Array);
