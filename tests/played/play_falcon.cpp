@@ -5,6 +5,7 @@
 // The user goes round the thesis's way: a circle in 10 s, with a sine upon it. --firmware: where the dummy
 // image is written that this Falcon takes; --figures: where it says, when the program has ended, what the
 // device has seen.
+#include <sched.h>
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -30,6 +31,13 @@ using namespace tactus;
 Vec3 way_of_the_user(double seconds) {
     const double turn = 2.0 * 3.14159265358979 * seconds / 10.0;
     return {0.025 * std::cos(turn), 0.006 + 0.02 * std::sin(5.0 * turn), 0.025 * std::sin(turn)};
+}
+
+// A hand and a device wait for no processor: where the system permits it, nothing but the haptic threads goes
+// first. Threads that are made after this have it, too.
+void schedule_as_hardware(bool on) {
+    const sched_param priority{.sched_priority = on ? 50 : 0};
+    sched_setscheduler(0, on ? SCHED_FIFO : SCHED_OTHER, &priority);
 }
 
 // Moves the hand until the program has ended; its exit code.
@@ -66,10 +74,12 @@ int main(int count, char** arguments) {
     const std::vector<std::uint8_t> image = shared::PlayedFalcon::firmware();
     std::ofstream(firmware, std::ios::binary)
         .write(reinterpret_cast<const char*>(image.data()), static_cast<std::streamsize>(image.size()));
+    schedule_as_hardware(true);
     shared::PlayedUsb falcon(settings);
     falcon.plug();
     const pid_t program = fork();
     if (program == 0) {
+        schedule_as_hardware(false);
         prctl(PR_SET_PDEATHSIG, SIGKILL);  // it does not outlive what it touches
         execvp(*(end + 1), &*(end + 1));
         std::perror(*(end + 1));
