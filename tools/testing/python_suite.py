@@ -12,6 +12,11 @@ from pathlib import Path
 from setup import cache
 from testing.results import Result, matching
 
+# What these files look at or start, as scons names it.
+BUILT_FOR = {
+    "test_proof.py": "fuzzers",
+    "test_same_bits.py": "build/template_debug/tests/test_session",
+}
 AT_A_TIME = 3  # they build in folders of their own, or wait for processes and their turn
 
 
@@ -22,7 +27,8 @@ def has(wanted: str) -> bool:
 
 def programs_with(wanted: str) -> list[str]:
     """What scons has to build beside the extension for the tests whose name contains the words."""
-    return ["fuzzers"] if any(matching(_named_in(path), wanted) for path in (cache.clone() / "tests/tools").glob("test_proof.py")) else []
+    folder = cache.clone() / "tests/tools"
+    return [program for file, program in BUILT_FOR.items() if matching(_named_in(folder / file), wanted)]
 
 
 def _named_in(path: Path) -> list[str]:
