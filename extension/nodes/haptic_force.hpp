@@ -31,9 +31,6 @@ private:
     using Form = HandEffect::Form;
 
     void form_changed();
-    bool has_direction() const {
-        return form_ != Form::spring && form_ != Form::damper && form_ != Form::friction;
-    }
 
     Form form_ = Form::constant;
     Vec3 direction_{0.0, 1.0, 0.0};

@@ -16,7 +16,7 @@ using namespace session_test;
 
 constexpr std::uint32_t button = 0b1;
 
-// Beside what gives the force there is nothing that gives much of one.
+// Nothing else in the scene adds much force to the path that is tested.
 struct Path {
     const char* name;
     std::function<void(SessionRig&)> set;

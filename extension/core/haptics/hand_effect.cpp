@@ -46,10 +46,8 @@ Vec3 effect_wall(const HandEffect& effect, const HandMotion& hand) {
 }  // namespace
 
 std::string check_effect(const HandEffect& effect) {
-    const bool has_direction = effect.form != EffectForm::spring && effect.form != EffectForm::damper &&
-                               effect.form != EffectForm::friction && effect.form != EffectForm::none;
     if (!is_effect_vector(effect.place) ||
-        (has_direction && !(std::abs(glm::length(effect.direction) - 1.0) < 1e-6))) {
+        (has_direction(effect.form) && !(std::abs(glm::length(effect.direction) - 1.0) < 1e-6))) {
         return "its place or its direction is none: give finite numbers, and a direction that is not zero";
     }
     if (!is_effect_size(std::abs(effect.force)) || !is_effect_size(std::abs(effect.first_force)) ||

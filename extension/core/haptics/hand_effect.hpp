@@ -60,6 +60,12 @@ struct HandEffectMemory {
     Vec3 anchor{0.0};  // a, in the world (unit: meters)
 };
 
+// Whether its force is along its direction.
+constexpr bool has_direction(HandEffect::Form form) {
+    using Form = HandEffect::Form;
+    return form != Form::none && form != Form::spring && form != Form::damper && form != Form::friction;
+}
+
 // Empty where it can be computed, or does nothing; otherwise what is wrong and what to do.
 std::string check_effect(const HandEffect& effect);
 

@@ -271,15 +271,7 @@ void SoftBody::iterate() {
         const Lanes inertial = (inertial_[n] - next_[n]) * splat(model.mass[n] * inverse_square);
         right_[n] = model.held[n] != 0 ? splat(0.0) : right_[n] + inertial;
     }
-    const Vec3 angle = whole.by_forces(right_);
-    for (std::size_t n = 0; n < next_.size(); ++n) {
-        right_[n] -= row_of(whole.way(angle, n) * (model.mass[n] * inverse_square));
-    }
-    model.factor.solve(right_);
-    const Vec3 turned = angle - whole.by_ways(right_);
-    for (std::size_t n = 0; n < next_.size(); ++n) {
-        right_[n] += row_of(whole.way(turned, n));
-    }
+    whole.solve(right_);
     for (std::size_t n = 0; n < next_.size(); ++n) {
         next_[n] += right_[n];
     }

@@ -22,10 +22,10 @@ Vec3 center_of_mass(const SoftModel& model, std::span<const Lanes> places) {
 WholeTurn::WholeTurn(const SoftModel& model, std::span<const Lanes> places, std::span<const Lanes> elastic,
                      double stretch)
     : model_(model), places_(places) {
-    const FreeTurn& free = model.free_turn;
-    if (free.about == FreeTurn::About::nothing) {
+    if (!is_free()) {
         return;
     }
+    const FreeTurn& free = model.free_turn;
     pivot_ = free.about == FreeTurn::About::itself ? center_of_mass(model, places) : free.pivot;
     Mat3 products(0.0);  // sum m q q^T
     double under_stress = 0.0;
@@ -42,6 +42,23 @@ WholeTurn::WholeTurn(const SoftModel& model, std::span<const Lanes> places, std:
     by_moment_ = free.about == FreeTurn::About::line
                      ? glm::outerProduct(free.axis, free.axis) / glm::dot(free.axis, inertia * free.axis)
                      : glm::inverse(inertia);
+}
+
+void WholeTurn::solve(std::vector<Lanes>& rows) const {
+    if (!is_free()) {
+        model_.factor.solve(rows);
+        return;
+    }
+    const double inverse_square = 1.0 / (model_.design.seconds * model_.design.seconds);
+    const Vec3 angle = by_forces(rows);
+    for (std::size_t n = 0; n < rows.size(); ++n) {
+        rows[n] -= row_of(way(angle, n) * (model_.mass[n] * inverse_square));
+    }
+    model_.factor.solve(rows);
+    const Vec3 turned = angle - by_ways(rows);
+    for (std::size_t n = 0; n < rows.size(); ++n) {
+        rows[n] += row_of(way(turned, n));
+    }
 }
 
 Vec3 WholeTurn::by_forces(std::span<const Lanes> forces) const {

@@ -15,6 +15,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "core/math/lanes.hpp"
 #include "core/math/types.hpp"
@@ -37,6 +38,11 @@ public:
     WholeTurn(const SoftModel& model, std::span<const Lanes> places, std::span<const Lanes> elastic,
               double stretch);
 
+    // Forces on the nodes become their ways (unit: meters).
+    void solve(std::vector<Lanes>& rows) const;
+
+private:
+    bool is_free() const { return model_.free_turn.about != FreeTurn::About::nothing; }
     // J^-1 dt^2 sum q x r, in radians about each axis.
     Vec3 by_forces(std::span<const Lanes> forces) const;
     // J^-1 sum q x M d.
@@ -44,7 +50,6 @@ public:
     // z(a) of a node.
     Vec3 way(const Vec3& angle, std::size_t node) const;
 
-private:
     const SoftModel& model_;
     std::span<const Lanes> places_;
     Vec3 pivot_{0.0};
