@@ -27,8 +27,8 @@ def has(wanted: str) -> bool:
 
 def programs_with(wanted: str) -> list[str]:
     """What scons has to build beside the extension for the tests whose name contains the words."""
-    folder = cache.clone() / "tests/tools"
-    return [program for file, program in BUILT_FOR.items() if matching(_named_in(folder / file), wanted)]
+    files = {path.name: path for path in (cache.clone() / "tests/tools").glob("test_*.py")}
+    return [program for file, program in BUILT_FOR.items() if file in files and matching(_named_in(files[file]), wanted)]
 
 
 def _named_in(path: Path) -> list[str]:
