@@ -15,7 +15,7 @@ const WholeFile := preload("whole_file.gd")
 
 ## A participant's code: no name of a person, and nothing that a path could be confused by.
 const CODE := "^[A-Za-z0-9_-]{1,32}$"
-## A run whose lock is older has been left (unit: seconds).
+## A run whose lock has not been touched for so long has been left (unit: seconds).
 const LOCK_LASTS := 10.0
 
 var folder := ""
@@ -23,10 +23,13 @@ var folder := ""
 var rows: Array[Dictionary] = []
 ## What the run was started with; see `about` of begin().
 var about := {}
+## See LOCK_LASTS (unit: seconds).
+var lock_lasts := LOCK_LASTS
 
 var _base := ""
 var _columns := PackedStringArray()
 var _written := ""
+var _touches := 0
 
 
 ## Where `goes_on` holds, takes up the participant's last run with these settings if it was not finished; else
@@ -44,7 +47,7 @@ func begin(
 	var number := _last_run(all)
 	if number > 0 and goes_on:
 		_name(all, study, participant, number)
-		if _is_unfinished(settings):
+		if _is_unfinished(settings) and _take_over():
 			return _go_on()
 	rows = []
 	while true:
@@ -56,6 +59,7 @@ func begin(
 			break
 		if code != ERR_ALREADY_EXISTS:
 			return "'%s' cannot be made (%s): choose another folder" % [folder, error_string(code)]
+	touch()
 	about = {"settings": settings, "finished": false}
 	about.merge(more)
 	return _write_about()
@@ -79,6 +83,8 @@ func add(row: Dictionary) -> String:
 		var value: Variant = row.get(column, "")
 		cells.append(str(int(value)) if value is bool else str(value))
 	text += _line(cells)
+	if FileAccess.file_exists(_path(".csv")) and _rows_on_disk() != _written:
+		return _not_kept("another program has changed it")
 	var file := FileAccess.open(
 		_path(".csv"), FileAccess.READ_WRITE if not _written.is_empty() else FileAccess.WRITE
 	)
@@ -87,7 +93,7 @@ func add(row: Dictionary) -> String:
 	file.seek_end()
 	file.store_string(text)
 	file.close()
-	if FileAccess.get_file_as_string(_path(".csv")) != _written + text:
+	if _rows_on_disk() != _written + text:
 		return _not_kept("is the disk full?")
 	_written += text
 	touch()
@@ -105,15 +111,16 @@ func finish(results: Dictionary) -> String:
 
 ## This run is being answered: no other program goes on with it. At least every few seconds.
 func touch() -> void:
-	var file := FileAccess.open(folder.path_join(".lock"), FileAccess.WRITE)
+	var file := FileAccess.open(_lock(), FileAccess.WRITE)
 	if file != null:
-		file.store_string(str(OS.get_process_id()))
+		_touches += 1
+		file.store_string("%d %d" % [OS.get_process_id(), _touches])
 
 
 ## Another program may go on with it.
 func leave() -> void:
-	if FileAccess.file_exists(folder.path_join(".lock")):
-		DirAccess.remove_absolute(ProjectSettings.globalize_path(folder.path_join(".lock")))
+	if FileAccess.file_exists(_lock()):
+		DirAccess.remove_absolute(_lock())
 
 
 func csv_path() -> String:
@@ -138,11 +145,48 @@ static func _last_run(all: String) -> int:
 	return last
 
 
-func _is_unfinished(settings: Dictionary) -> bool:
-	if FileAccess.file_exists(folder.path_join(".lock")):
-		var age := Time.get_unix_time_from_system() - FileAccess.get_modified_time(folder.path_join(".lock"))
-		if age < LOCK_LASTS:
+func _lock() -> String:
+	return ProjectSettings.globalize_path(folder.path_join(".lock"))
+
+
+func _lock_text() -> String:
+	return FileAccess.get_file_as_string(_lock()) if FileAccess.file_exists(_lock()) else ""
+
+
+func _rows_on_disk() -> String:
+	return FileAccess.get_file_as_string(_path(".csv"))
+
+
+## Whether this program has the run's lock now, which no other one has then. A lock that is not old yet may
+## have been left by a crash: whether it is touched again is waited for.
+func _take_over() -> bool:
+	var left := _lock_text()
+	if left.begins_with("%d " % OS.get_process_id()):
+		return false
+	var deadline := Time.get_ticks_msec() + int(1e3 * lock_lasts)
+	while Time.get_ticks_msec() < deadline and _lock_age() < lock_lasts:
+		if _lock_text() not in [left, ""]:
 			return false
+		OS.delay_msec(20)
+	# Making a folder either succeeds or finds it: of two programs that have waited one goes on.
+	var claim := ProjectSettings.globalize_path(folder.path_join(".claim"))
+	if DirAccess.make_dir_absolute(claim) != OK:
+		return false
+	var is_left := _lock_text() in [left, ""]
+	if is_left:
+		touch()
+	DirAccess.remove_absolute(claim)
+	return is_left
+
+
+## Infinite where there is no lock (unit: seconds).
+func _lock_age() -> float:
+	if not FileAccess.file_exists(_lock()):
+		return INF
+	return Time.get_unix_time_from_system() - FileAccess.get_modified_time(_lock())
+
+
+func _is_unfinished(settings: Dictionary) -> bool:
 	var found: Variant = JSON.parse_string(FileAccess.get_file_as_string(_path(".json")))
 	if not found is Dictionary or found.get("finished", true):
 		return false
@@ -170,7 +214,6 @@ func _go_on() -> String:
 		else:
 			break
 		whole += line + "\n"
-	touch()
 	_written = whole
 	return "" if whole == text else _kept(WholeFile.write(_path(".csv"), whole))
 
