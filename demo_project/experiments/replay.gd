@@ -18,8 +18,9 @@ const SETTINGS := "_settings.json"
 const A_WHILE := 60.0
 
 
-## Returns the exit code of the program: 0 when everything was the same, 1 when something was not, 2 when
-## there was nothing, a part was missing, or not all of it could be played.
+## Returns the exit code of the program: 0 when everything was the same, 1 when something was not or a part is
+## another one than was recorded, 2 when there was nothing, a part was missing, or not all of it could be
+## played.
 static func run(arguments: PackedStringArray) -> int:
 	var words := OptionWords.new()
 	words.declared = {"replay": OptionWords.text(), "output": OptionWords.text()}
@@ -43,6 +44,9 @@ static func run(arguments: PackedStringArray) -> int:
 	var worst := SAME
 	for file: String in sides:
 		worst = maxi(worst, play(bundle, file.trim_suffix(INPUTS), output))
+	for changed in _changed(bundle):
+		printerr("replay: its part %s is not the one that was recorded." % changed)
+		worst = maxi(worst, DIFFERENT)
 	for missing in _missing(bundle):
 		printerr("replay: ", missing, ".")
 		worst = maxi(worst, DAMAGED)
@@ -79,10 +83,35 @@ static func _missing(bundle: String) -> PackedStringArray:
 	return missing
 
 
+## The parts whose hash is not that of their list.
+static func _changed(bundle: String) -> PackedStringArray:
+	var changed := PackedStringArray()
+	for file in DirAccess.get_files_at(bundle):
+		var parts: Dictionary = (
+			_settings_of(bundle, file).get("parts", {}) if file.ends_with(SETTINGS) else {}
+		)
+		for part: String in parts:
+			var path := bundle.path_join(part)
+			var listed: Variant = parts[part].get("sha256") if parts[part] is Dictionary else null
+			if FileAccess.file_exists(path) and FileAccess.get_sha256(path) != listed:
+				changed.append(part)
+	return changed
+
+
+## Empty where the file has no list of the parts.
+static func _settings_of(bundle: String, file: String) -> Dictionary:
+	# An object of its own says nothing where it cannot read.
+	var json := JSON.new()
+	if json.parse(FileAccess.get_file_as_string(bundle.path_join(file))) != OK:
+		return {}
+	var settings: Variant = json.data
+	return settings if settings is Dictionary and settings.get("parts") is Dictionary else {}
+
+
 static func _missing_of(bundle: String, settings_file: String) -> PackedStringArray:
 	var missing := PackedStringArray()
-	var settings: Variant = JSON.parse_string(FileAccess.get_file_as_string(bundle.path_join(settings_file)))
-	if not settings is Dictionary or not settings.get("parts") is Dictionary:
+	var settings := _settings_of(bundle, settings_file)
+	if settings.is_empty():
 		return PackedStringArray(["%s has no list of the parts" % settings_file])
 	for side: String in settings.get("sides", []):
 		if not FileAccess.file_exists(bundle.path_join(side + SETTINGS)):
@@ -95,10 +124,8 @@ static func _missing_of(bundle: String, settings_file: String) -> PackedStringAr
 
 static func _is_listed(bundle: String, inputs: String) -> bool:
 	for file in DirAccess.get_files_at(bundle):
-		if file.ends_with(SETTINGS):
-			var settings: Variant = JSON.parse_string(FileAccess.get_file_as_string(bundle.path_join(file)))
-			if settings is Dictionary and settings.get("parts") is Dictionary and settings.parts.has(inputs):
-				return true
+		if file.ends_with(SETTINGS) and _settings_of(bundle, file).get("parts", {}).has(inputs):
+			return true
 	return false
 
 

@@ -148,6 +148,15 @@ def test_rows_that_are_others_are_told(bundle, tmp_path, capsys):
     assert "its rows are not those of the bundle" in capsys.readouterr().out
 
 
+@pytest.mark.parametrize("part", ["hand_statistics.json", "hand_periods.json", "hand_trace.json"])
+def test_a_part_that_was_changed_is_told(part, bundle, tmp_path, capsys):
+    for path in bundle.iterdir():
+        (tmp_path / path.name).write_bytes(path.read_bytes())
+    (tmp_path / part).write_text((bundle / part).read_text().replace("0", "1", 1))
+    assert replay.main([str(tmp_path)]) == 1
+    assert f"its part {part} is not the one that was recorded" in capsys.readouterr().out
+
+
 def test_what_is_no_bundle_is_refused(tmp_path, capsys):
     assert replay.main([str(tmp_path)]) == 2 and replay.main([]) == 2
     assert experiment.main([str(tmp_path)]) == 2
