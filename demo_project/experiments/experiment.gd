@@ -44,6 +44,11 @@ const FRAMES_PER_SECOND := 60
 ## The exit code where something is asked for that there is not.
 const REFUSED := 2
 
+## Below it each whole number is a float of its own: the one that was written is the one that was read.
+const LARGEST_WHOLE := 9007199254740992.0
+## Relative: half a unit in the last place of 32 bits.
+const FLOAT_PRECISION := 6e-8
+
 ## To find the far side, in seconds.
 const LONGEST_MEETING := 30.0
 
@@ -338,8 +343,10 @@ func _set_all(word: String, node: Node, properties: Dictionary) -> String:
 
 ## A number of JSON is a float, and a property may be whole or have the precision of a float.
 static func _is_same(now: Variant, asked: Variant) -> bool:
-	if asked is float and (now is float or now is int):
-		return is_equal_approx(now, asked)
+	if asked is float and now is int:
+		return now == asked and absf(asked) < LARGEST_WHOLE
+	if asked is float and now is float:
+		return absf(now - asked) <= FLOAT_PRECISION * absf(asked)
 	if asked is bool and (now is float or now is int):
 		return false
 	return JSON.stringify(now, "", true) == JSON.stringify(asked, "", true)

@@ -73,6 +73,12 @@ func test_a_property_that_refuses_its_value_ends_the_run() -> void:
 	check_equal(await _run(["--link.conditions.loss=5"]), Experiment.REFUSED, "a loss of 5")
 	check_equal(await _run(["--link.conditions.delay=-1"]), Experiment.REFUSED, "a delay below 0")
 	check_equal(await _run(["--device.force_limit=nan"]), Experiment.REFUSED, "a limit that is no number")
+	for word: String in [
+		"--link.conditions.delay=-0.000001",
+		"--link.scenario=1.000001",
+		"--link.conditions.seed=9007199254740993"
+	]:
+		check_equal(await _run([word]), Experiment.REFUSED, word)
 	check(_files().is_empty(), "left: %s" % [_files()])
 
 
