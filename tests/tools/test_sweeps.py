@@ -305,9 +305,26 @@ def test_an_effect_has_its_size_and_its_interval():
     assert effects.of_pairs([1.0, 2.0], [1.0, 2.0]).g == 0.0
 
 
-def test_an_effect_of_the_same_pair_again_is_of_one_pair():
-    found = effects.of_pairs([1.0] * 5, [2.0] * 5)
-    assert (found.pairs, found.difference) == (1, 1.0) and found.low != found.low and found.g != found.g
+def compared(tmp_path, figures) -> dict:
+    """The effect of a delay over five seeds, where a run has figures(delay, seed)."""
+    sweep = described(DESCRIPTION | {"factors": {"delay": [0, 50]}, "seeds": [1, 2, 3, 4, 5]}, tmp_path)
+    values = [{sweep.column(name): value for name, value in sweep.values(run).items()} for run in sweep.runs()]
+    rows = [{"run": number, **one, **figures(one["delay_ms"], one["seed"])} for number, one in enumerate(values, 1)]
+    (found,) = effects.rows(sweep, rows)
+    return dict(zip(effects.HEAD, found))
+
+
+def test_an_effect_of_the_same_pair_again_is_of_one_pair(tmp_path):
+    found = compared(tmp_path, lambda delay, _: {DESCRIPTION["measures"][0]: 2.0 if delay else 1.0})
+    assert (found["pairs"], found["difference"]) == (1, 1.0)
+    assert all(found[key] != found[key] for key in ("difference_low", "difference_high", "hedges_g"))
+
+
+def test_other_runs_with_the_same_figure_count_each(tmp_path):
+    """Such as one that counts: four of five runs gain 1, one loses 1, and no two runs are the same."""
+    gained = {1: 1.0, 2: 1.0, 3: 1.0, 4: 1.0, 5: -1.0}
+    found = compared(tmp_path, lambda delay, seed: {DESCRIPTION["measures"][0]: gained[seed] if delay else 0.0, "other": seed + delay})
+    assert (found["pairs"], found["difference"]) == (5, pytest.approx(0.6))
 
 
 def test_ninety_five_in_a_hundred_intervals_of_an_effect_hold():

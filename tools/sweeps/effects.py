@@ -1,11 +1,11 @@
 """How much a factor changes a figure: each of its levels against the first one, run by run.
 
-Runs that differ in nothing but that factor are a pair. Pairs in which both figures are those of another pair are the same
-touch again, and count once.
+Runs that differ in nothing but that factor are a pair. Pairs in which all figures of both runs are those of another pair
+are the same touch again, and count once.
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,6 +13,8 @@ import numpy as np
 from sweeps import statistics
 from sweeps.description import Sweep
 from sweeps.table import Rows
+
+Row = dict[str, object]
 
 DRAWS = 10_000
 HEAD = ("factor", "level", "against", "measure", "pairs", "difference", "difference_low", "difference_high", "hedges_g", "hedges_g_low", "hedges_g_high")
@@ -32,7 +34,7 @@ class Effect:
 
 
 def of_pairs(first: Sequence[float], second: Sequence[float]) -> Effect:
-    pairs = np.array(list(dict.fromkeys(zip(first, second))), dtype=float)
+    pairs = np.array(list(zip(first, second)), dtype=float)
     mean, half = statistics.mean_and_interval([float(one) for one in pairs[:, 1] - pairs[:, 0]])
     draws = np.random.default_rng(1).integers(len(pairs), size=(DRAWS, len(pairs)))
     with np.errstate(invalid="ignore", divide="ignore"):
@@ -62,15 +64,28 @@ def rows(sweep: Sweep, table: Rows) -> list[tuple]:
         others = [sweep.column(name) for name in sweep.varied if name != factor]
         levels = list(dict.fromkeys(row[column] for row in table))
         for level in levels[1:]:
+            pairs = _independent(_pairs(table, column, (levels[0], level), others), ["run", *map(sweep.column, sweep.varied)])
             for measure in sweep.measures:
-                of_level = [{tuple(row[name] for name in others): row[measure] for row in table if row[column] == one and _is_number(row.get(measure))}
-                            for one in (levels[0], level)]  # fmt: skip
-                both = [key for key in of_level[0] if key in of_level[1]]
+                both = [[float(row[measure]) for row in pair] for pair in pairs if all(_is_number(row.get(measure)) for row in pair)]  # type: ignore[arg-type]
                 if both:
-                    effect = of_pairs(*([float(one[key]) for key in both] for one in of_level))  # type: ignore[arg-type]
+                    effect = of_pairs(*zip(*both))
                     found.append((column, level, levels[0], measure, effect.pairs, effect.difference, effect.low, effect.high,
                                   effect.g, effect.g_low, effect.g_high))  # fmt: skip
     return found
+
+
+def _pairs(table: Rows, column: str, levels: tuple[object, object], others: Sequence[str]) -> list[tuple[Row, Row]]:
+    """Rows of the two levels that are the same in the others."""
+    first, second = ({tuple(row[name] for name in others): row for row in table if row[column] == level} for level in levels)
+    return [(first[key], second[key]) for key in first if key in second]
+
+
+def _independent(pairs: Iterable[tuple[Row, Row]], labels: Sequence[str]) -> list[tuple[Row, Row]]:
+    """Those that differ in more than their labels from each one before."""
+    found: dict[tuple, tuple[Row, Row]] = {}
+    for pair in pairs:
+        found.setdefault(tuple(statistics.figures(row, labels) for row in pair), pair)
+    return list(found.values())
 
 
 def _is_number(value: object) -> bool:

@@ -11,8 +11,14 @@ def independent(rows: Iterable[Mapping[str, object]], labels: Iterable[str]) -> 
     left_out = set(labels)
     found: dict[tuple, Mapping[str, object]] = {}
     for row in rows:
-        found.setdefault(tuple(sorted((key, str(value)) for key, value in row.items() if key not in left_out)), row)
+        found.setdefault(figures(row, left_out), row)
     return list(found.values())
+
+
+def figures(row: Mapping[str, object], labels: Iterable[str]) -> tuple[tuple[str, str], ...]:
+    """All that is in a row but its labels: the same for the same run."""
+    left_out = set(labels)
+    return tuple(sorted((key, str(value)) for key, value in row.items() if key not in left_out))
 
 
 def mean_and_interval(values: Sequence[float]) -> tuple[float, float]:
