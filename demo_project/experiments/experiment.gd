@@ -48,6 +48,7 @@ const REFUSED := 2
 const LARGEST_WHOLE := 9007199254740992.0
 ## Relative: half a unit in the last place of 32 bits.
 const FLOAT_PRECISION := 6e-8
+const NANOSECOND := 1e-9
 
 ## To find the far side, in seconds.
 const LONGEST_MEETING := 30.0
@@ -341,12 +342,12 @@ func _set_all(word: String, node: Node, properties: Dictionary) -> String:
 	return ""
 
 
-## A number of JSON is a float, and a property may be whole or have the precision of a float.
+## A number of JSON is a float; a property may be whole, have 32 bits, or count nanoseconds.
 static func _is_same(now: Variant, asked: Variant) -> bool:
 	if asked is float and now is int:
 		return now == asked and absf(asked) < LARGEST_WHOLE
 	if asked is float and now is float:
-		return absf(now - asked) <= FLOAT_PRECISION * absf(asked)
+		return absf(now - asked) <= maxf(FLOAT_PRECISION * absf(asked), NANOSECOND)
 	if asked is bool and (now is float or now is int):
 		return false
 	return JSON.stringify(now, "", true) == JSON.stringify(asked, "", true)

@@ -86,6 +86,7 @@ func test_what_was_played_is_written_down() -> void:
 	check_equal(
 		await _run(["--inputs=1", "--link.conditions.loss=0.25", "--device.force_limit=7"]), 0, "exit code"
 	)
+	check_equal(await _run(["--link.conditions.jitter=0.0001234567891"]), 0, "part of a nanosecond")
 	var settings: Dictionary = JSON.parse_string(
 		FileAccess.get_file_as_string(_folder.path_join("hand_settings.json"))
 	)
