@@ -17,6 +17,7 @@ import experiment
 import pytest
 
 import plots.sweep
+from measuring import options
 from plots import style
 from setup import cache
 from sweeps import command, description, effects, playing, results, sources, statistics, table
@@ -293,6 +294,13 @@ def test_lines_are_told_apart_in_grey():
     greys = [0.2126 * r + 0.7152 * g + 0.0722 * b for r, g, b, _ in (look["color"] for look in looks)]
     assert greys == sorted(greys) and min(b - a for a, b in zip(greys, greys[1:])) > 0.08
     assert len({look["marker"] for look in looks}) == len({str(look["linestyle"]) for look in looks}) == 5
+
+
+@pytest.mark.parametrize("more", [{"options": {"seconds": True}}, {"factors": {"delay": [True, 50]}}, {"factors": {"way": [True]}}])
+def test_true_is_no_number(more, tmp_path):
+    with pytest.raises(options.Refused, match="= true is refused: it must be"):
+        described(DESCRIPTION | more, tmp_path)
+    assert described(DESCRIPTION | {"options": {"rows": False}}, tmp_path).options["rows"] == "0"
 
 
 def test_an_effect_has_its_size_and_its_interval():

@@ -113,6 +113,7 @@ def _checked(name: str, given: object, experiments: list[str]) -> Sweep:
         raise Refused(f"{key} is an option of all runs and a factor as well")
     for key in {"seed"} & (factors.keys() | common.keys()):
         raise Refused(f"{key}: say repeats = N, or seeds = [1, 2, …]")
+    _check_truth_values(given, experiment)
     seeds = _seeds(given, experiment)
     measures = given.get("measures")
     if not isinstance(measures, list) or not measures or not all(isinstance(one, str) for one in measures):
@@ -145,6 +146,15 @@ def _levels(key: str, values: object) -> tuple[str, ...]:
     if not isinstance(values, list) or not values:
         raise Refused(f"{key} must be a list of its levels")
     return tuple(_text(key, value) for value in values)
+
+
+def _check_truth_values(given: dict, experiment: str) -> None:
+    """`true` is 1 of a switch alone, and no number."""
+    levels = {**{key: [value] for key, value in _table(given, "options").items()}, **_table(given, "factors")}
+    for key, values in levels.items():
+        field = _fields(experiment).get(key)
+        if field is not None and field.type is not bool and any(isinstance(value, bool) for value in values):
+            raise Refused(f"{key} = {str(next(value for value in values if isinstance(value, bool))).lower()} is refused: it must be {options.allowed(field)}")
 
 
 def _text(key: str, value: object) -> str:
