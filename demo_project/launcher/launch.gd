@@ -27,6 +27,19 @@ const SCENARIOS := {
 	"4: over a network, by a model": 4,
 	"5: a robot and a camera, by a model": 5,
 }
+## By choice, the scenarios that play it; the others are of every scenario.
+const ONLY_IN := {
+	"side": [2, 4],
+	"remote_address": [2, 4],
+	"key_file": [2, 4],
+	"delay_ms": [2, 3, 4, 5],
+	"jitter_ms": [2, 3, 4, 5],
+	"loss": [2, 3, 4, 5],
+	"correction": [2, 3, 4, 5],
+	"derivation": [2, 3, 4, 5],
+	"control": [2, 3, 4, 5],
+	"camera": [5],
+}
 ## Names of enumerators of a class, with the property that they are values of.
 const DRIVERS := ["HapticDevice", "Driver", "device.driver"]
 const CORRECTIONS := ["MMTLink", "CorrectionScheme", "link.correction_scheme"]
@@ -64,8 +77,23 @@ func take(arguments: PackedStringArray) -> String:
 	if not wrong.is_empty():
 		return wrong
 	words.values.erase("launch")
+	wrong = _not_played(words.values)
+	if not wrong.is_empty():
+		return wrong
 	chosen.merge(words.values, true)
 	return problem()
+
+
+## Which of the given values the scenario has no use for; empty where it plays them all.
+func _not_played(given: Dictionary) -> String:
+	var scenario: int = given.get("scenario", chosen.scenario)
+	for key: String in given:
+		if scenario not in ONLY_IN.get(key, [scenario]):
+			return (
+				"--%s is refused: scenario %d does not play it, only %s"
+				% [key, scenario, " and ".join(ONLY_IN[key].map(str))]
+			)
+	return ""
 
 
 static func _declared() -> Dictionary:

@@ -144,6 +144,25 @@ func test_the_launcher_refuses_by_type_unit_and_range() -> void:
 		check(Launch.new().take(PackedStringArray([word])) != "", word)
 
 
+func test_the_launcher_refuses_what_the_scenario_would_not_play() -> void:
+	for words: Array in [
+		["--scenario=1", "--delay_ms=40"],
+		["--loss=0.1"],
+		["--scenario=1", "--correction=CORRECTION_NONE"],
+		["--scenario=3", "--key_file=/key"],
+		["--scenario=5", "--side=operator"],
+		["--scenario=4", "--camera=SOURCE_CAMERA"]
+	]:
+		var launch := Launch.new()
+		var said := launch.take(PackedStringArray(words))
+		check("is refused: scenario" in said, "%s: '%s'" % [words, said])
+		check_equal(launch.chosen, Launch.new().chosen, "what is chosen")
+	for words: Array in [
+		["--scenario=2", "--delay_ms=40", "--side=operator"], ["--scenario=5", "--camera=SOURCE_CAMERA"]
+	]:
+		check_equal(Launch.new().take(PackedStringArray(words)), "", "%s" % [words])
+
+
 func test_each_launch_has_a_folder_of_its_own() -> void:
 	DirAccess.make_dir_recursive_absolute(_folder)
 	var first := Run._own_folder(_folder.path_join("bundle"))
