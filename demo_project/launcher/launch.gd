@@ -125,6 +125,8 @@ func problem() -> String:
 		return "there is no scenario %s: choose 1 to 5" % chosen.scenario
 	if chosen.side not in [BOTH, OPERATOR, ENVIRONMENT]:
 		return "there is no side '%s': choose %s or %s" % [chosen.side, OPERATOR, ENVIRONMENT]
+	if chosen.output.is_empty():
+		return "the bundle has no place: choose a folder"
 	if not chosen.seconds > 0.0:
 		return "it would last no time: choose more than 0 seconds"
 	for choice: Array in [

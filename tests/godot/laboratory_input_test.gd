@@ -64,6 +64,13 @@ func test_nonsense_is_refused_and_nothing_is_written() -> void:
 		"--link.conditions.delay.far=1"
 	]:
 		check_equal(await _run([word]), Experiment.REFUSED, word)
+	# An empty one would be the project's own folder.
+	for word: String in ["--output=", "--case="]:
+		check_equal(await _run([word]), Experiment.REFUSED, word)
+	check(Launch.new().take(PackedStringArray(["--output="])) != "", "a launch without a folder")
+	var form := Launch.new()
+	form.chosen.output = ""
+	check("choose a folder" in form.problem(), "a form without a folder: '%s'" % form.problem())
 	check_equal(await _run(["--warmup=0", "--warmup=0"]), Experiment.REFUSED, "an option that is given twice")
 	check(not DirAccess.dir_exists_absolute(_folder) or _files().is_empty(), "left: %s" % [_files()])
 

@@ -127,7 +127,9 @@ static func value_of(one: Dictionary, given: String) -> Variant:
 		TYPE_PACKED_STRING_ARRAY:
 			var parts := given.split(",")
 			return null if "" in parts else parts
-	return given if not one.has("among") or given in one.among else null
+	if one.has("among"):
+		return given if given in one.among else null
+	return given if not given.is_empty() else null
 
 
 static func allowed(one: Dictionary) -> String:
@@ -143,7 +145,7 @@ static func allowed(one: Dictionary) -> String:
 			return "numbers separated by commas, each from %s to %s%s" % [one.least, one.most, unit]
 		TYPE_PACKED_STRING_ARRAY:
 			return "names separated by commas"
-	return "one of " + ", ".join(one.among) if one.has("among") else "a text"
+	return "one of " + ", ".join(one.among) if one.has("among") else "a text, and not an empty one"
 
 
 ## Not nan, not inf, no letters, no blanks.
