@@ -16,7 +16,6 @@ from sweeps.table import Rows
 
 Row = dict[str, object]
 
-DRAWS = 10_000
 HEAD = ("factor", "level", "against", "measure", "pairs", "difference", "difference_low", "difference_high", "hedges_g", "hedges_g_low", "hedges_g_high")
 
 
@@ -29,31 +28,34 @@ class Effect:
     low: float
     high: float
     g: float  # the mean difference over the pooled standard deviation, corrected for few runs (Hedges 1981)
-    g_low: float  # 95 % interval, by bootstrap over pairs
+    g_low: float  # 95 % interval, by the noncentral t distribution
     g_high: float
 
 
 def of_pairs(first: Sequence[float], second: Sequence[float]) -> Effect:
     pairs = np.array(list(zip(first, second)), dtype=float)
     mean, half = statistics.mean_and_interval([float(one) for one in pairs[:, 1] - pairs[:, 0]])
-    draws = np.random.default_rng(1).integers(len(pairs), size=(DRAWS, len(pairs)))
-    with np.errstate(invalid="ignore", divide="ignore"):
-        g = _hedges_g(pairs[np.newaxis])[0]
-        # Draws of one pair alone, again and again, have no deviation.
-        drawn = _hedges_g(pairs[draws])
-    known = drawn[np.isfinite(drawn)]
-    low, high = np.quantile(known, [0.025, 0.975]) if math.isfinite(g) and len(known) > 0 else (math.nan, math.nan)
-    return Effect(len(pairs), mean, mean - half, mean + half, float(g), float(low), float(high))
+    return Effect(len(pairs), mean, mean - half, mean + half, *_hedges_g(pairs))
 
 
-def _hedges_g(pairs: np.ndarray) -> np.ndarray:
-    """Of samples × pairs × 2."""
-    count = pairs.shape[1]
-    if count < 2:
-        return np.full(len(pairs), math.nan)
-    deviation = np.sqrt(pairs.var(axis=1, ddof=1).mean(axis=1))
+def _hedges_g(pairs: np.ndarray) -> tuple[float, float, float]:
+    """Of pairs × 2, with its interval.
+
+    t = mean / (s / sqrt n) of the n differences, whose deviation is s, has a noncentral t distribution. Its noncentrality
+    times s / sqrt n over the pooled deviation is the effect (Algina and Keselman 2003).
+    """
+    count = len(pairs)
+    pooled = math.sqrt(pairs.var(axis=0, ddof=1).mean()) if count > 1 else 0.0
+    if not pooled > 0.0:
+        return math.nan, math.nan, math.nan
+    differences = pairs[:, 1] - pairs[:, 0]
     few = 1.0 - 3.0 / (4.0 * (2 * count - 2) - 1.0)
-    return few * (pairs[:, :, 1] - pairs[:, :, 0]).mean(axis=1) / np.where(deviation > 0.0, deviation, math.nan)
+    g = few * float(differences.mean()) / pooled
+    error = float(differences.std(ddof=1)) / math.sqrt(count)
+    if not error > 0.0:  # each pair differs by the same
+        return g, g, g
+    low, high = statistics.noncentrality(statistics.CONFIDENCE, float(differences.mean()) / error, count - 1)
+    return g, low * error / pooled, high * error / pooled
 
 
 def rows(sweep: Sweep, table: Rows) -> list[tuple]:

@@ -63,7 +63,7 @@ def _effects(found: list[tuple]) -> list[str]:
     ]
     words = (
         "Pairs of runs that differ in that factor alone, with the same seed. The difference has its 95 % interval by Student's t; Hedges' g is the "
-        "difference over the pooled standard deviation, with its 95 % interval by bootstrap over the pairs. All are in effects.csv."
+        "difference over the pooled standard deviation, with its 95 % interval by the noncentral t distribution. All are in effects.csv."
     )
     return [html.section("What a factor changes", html.paragraph(words), html.table(("", "measure", "pairs", "difference", "Hedges' g"), rows, numbers_from=2))]
 

@@ -2,8 +2,10 @@
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
+from functools import cache
 
 CONFIDENCE = 0.95
+NODES = 400
 
 
 def independent(rows: Iterable[Mapping[str, object]], labels: Iterable[str]) -> list[Mapping[str, object]]:
@@ -53,3 +55,36 @@ def _within(t: float, freedom: int) -> float:
         term *= k / (k + 1) * cosine**2
         total += term
     return 2.0 / math.pi * (angle + sine * total) if freedom % 2 else sine * total
+
+
+def noncentrality(share: float, t: float, freedom: int) -> tuple[float, float]:
+    """The interval of the noncentralities under which `t` is not among the rarest 1 - `share` of values, by bisection."""
+    return tuple(_noncentrality_with(t, freedom, below) for below in (0.5 + 0.5 * share, 0.5 - 0.5 * share))  # type: ignore[return-value]
+
+
+def _noncentrality_with(t: float, freedom: int, share: float) -> float:
+    """With which `share` of the distribution is below t: the more the noncentrality, the less."""
+    step = 1.0
+    while _below(t, freedom, t - step) < share or _below(t, freedom, t + step) > share:
+        step *= 2.0
+    low, high = t - step, t + step
+    for _ in range(50):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if _below(t, freedom, middle) > share else (low, middle)
+    return 0.5 * (low + high)
+
+
+def _below(t: float, freedom: int, noncentrality: float) -> float:
+    """P(Z + noncentrality < t S) for a normal Z, and S = sqrt(chi² / ν), over whose distribution the sum goes."""
+    nodes, weights = _deviations(freedom)
+    return math.fsum(weight * 0.5 * math.erfc((noncentrality - t * node) / math.sqrt(2.0)) for node, weight in zip(nodes, weights))
+
+
+@cache
+def _deviations(freedom: int) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """S and its share, in NODES steps as far as it counts: its density is s^(ν - 1) exp(-ν s² / 2) over a constant."""
+    reach = 1.0 + 8.0 / math.sqrt(2.0 * freedom)
+    nodes = tuple(reach * (i + 0.5) / NODES for i in range(NODES))
+    heights = [math.exp((freedom - 1) * math.log(s) - 0.5 * freedom * (s * s - 1.0)) for s in nodes]
+    total = math.fsum(heights)
+    return nodes, tuple(height / total for height in heights)
