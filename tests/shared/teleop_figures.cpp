@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <fstream>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <utility>
 
 namespace tactus::shared {
@@ -50,23 +51,37 @@ bool write_rows(const std::string& path, const std::vector<TeleopRow>& rows) {
     std::ofstream file(path);
     file << "time_us,hand_x,hand_y,hand_z,force_x,force_y,force_z,direct_x,direct_y,direct_z,far_x,far_y,"
             "far_z,model_x,model_y,model_z,truth_x,truth_y,truth_z,box_error_m,offset_m,jnd_share,depth_m,"
-            "local_depth_m,felt_excess_1ms_N,felt_excess_100ms_N,felt_excess_100ms_jnd,let_go\n";
-    const auto put = [&file](const Vec3& v) {
-        char text[96];
-        std::snprintf(text, sizeof text, ",%.9g,%.9g,%.9g", v.x, v.y, v.z);
+            "local_depth_m,felt_excess_1ms_N,felt_excess_100ms_N,felt_excess_100ms_jnd,let_go,"
+            "far_hand_error_m,box_rotation_error_rad,touches,direct_touches\n";
+    const auto number = [&file](double value) {
+        char text[32];
+        std::snprintf(text, sizeof text, ",%.9g", value);
         file << text;
     };
+    const auto put = [&number](const Vec3& v) {
+        number(v.x);
+        number(v.y);
+        number(v.z);
+    };
+    // Of a sample that the far side has not answered nothing is known there.
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     for (const TeleopRow& row : rows) {
         file << row.time / 1000;
         put(row.hand);
         put(row.force);
         put(row.direct);
-        put(row.far);
+        put(row.far_known ? row.far : Vec3(unknown));
         put(row.model.position);
-        put(row.truth.position);
-        file << ',' << (row.far_known ? row.box_error : 0.0) << ',' << row.offset << ',' << row.jnd_share
-             << ',' << row.depth << ',' << row.local_depth << ',' << row.excess_1ms.newtons << ','
-             << row.excess_100ms.newtons << ',' << row.excess_100ms.jnd << ',' << row.let_go << '\n';
+        put(row.far_known ? row.truth.position : Vec3(unknown));
+        for (const double value :
+             {row.far_known ? row.box_error : unknown, row.offset, row.jnd_share, row.depth, row.local_depth,
+              row.excess_1ms.newtons, row.excess_100ms.newtons, row.excess_100ms.jnd}) {
+            number(value);
+        }
+        file << ',' << row.let_go;
+        number(row.far_known ? row.hand_error : unknown);
+        number(row.far_known ? row.turn_error : unknown);
+        file << ',' << row.touches << ',' << row.direct_touches << '\n';
     }
     file.close();
     return !file.fail();

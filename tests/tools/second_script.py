@@ -72,8 +72,45 @@ def linked_touch(path: Path) -> dict[str, float]:
             found |= {f"felt_excess_{window}ms_{unit}_{how}": value for how, value in spread(values).items()}
     found |= energies(rows)
     found["let_go_ticks"] = sum(row["let_go"] for row in rows)
-    found["box_position_error_max_mm"] = 1e3 * max(row["box_error_m"] for row in rows)
-    return found
+    found["force_jitter_rms_N"] = root_mean_square([size(fast) for fast in high_pass([vector(row, "force") for row in rows], 30.0)])
+    masked = sorted(row["jnd_share"] for row in rows if row["jnd_share"] > 0.0)
+    found["correction_cost_jnd_p99"] = masked[math.floor(0.99 * (len(masked) - 1))] if masked else 0.0
+    touched = next((row["time_us"] for row in rows if row["direct_touches"]), None)
+    wrong = max((row["time_us"] for row, error in zip(rows, errors) if error > 0.02), default=0.0)
+    found["seconds_until_right"] = 0.0 if touched is None else max(0.0, 1e-6 * (wrong - touched))
+    answered = [row for row in rows if not math.isnan(row["box_error_m"])]
+    found["hand_position_error_rms_mm"] = 1e3 * root_mean_square([row["far_hand_error_m"] for row in answered])
+    return found | of_the_box(answered)
+
+
+def of_the_box(rows: list[dict[str, float]]) -> dict[str, float]:
+    """Of the samples that the teleoperator has answered."""
+    off = [1e3 * row["box_error_m"] for row in rows]
+    found = {f"box_position_error_{how}_mm": value for how, value in spread(off).items()}
+    found |= {"box_position_error_rms_mm": root_mean_square(off), "box_position_error_final_mm": off[-1]}
+    found["box_rotation_error_rms_deg"] = math.degrees(root_mean_square([row["box_rotation_error_rad"] for row in rows]))
+    return found | {f"{which}_final_{axis}": rows[-1][f"{which}_{axis}"] for which in ("model", "truth") for axis in "xyz"}
+
+
+def root_mean_square(values: list[float]) -> float:
+    return math.sqrt(math.fsum(value * value for value in values) / len(values)) if values else 0.0
+
+
+def high_pass(values: list[Vector], hertz: float) -> list[Vector]:
+    """Butterworth's filter of second order, by the bilinear transform, of one value a millisecond, from rest."""
+    tangent = math.tan(math.pi * hertz * 1e-3)
+    scale = 1.0 + math.sqrt(2.0) * tangent + tangent**2
+    one_back, two_back = 2.0 * (tangent**2 - 1.0) / scale, (1.0 - math.sqrt(2.0) * tangent + tangent**2) / scale
+    rest = (0.0, 0.0, 0.0)
+    given, found = [rest, rest, *values], [rest, rest]
+    for i in range(2, len(given)):
+        found.append(
+            tuple(
+                (given[i][axis] - 2.0 * given[i - 1][axis] + given[i - 2][axis]) / scale - one_back * found[-1][axis] - two_back * found[-2][axis]
+                for axis in range(3)
+            )
+        )
+    return found[2:]
 
 
 def scenario1(path: Path, seconds: float) -> dict[str, float]:
