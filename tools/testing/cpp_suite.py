@@ -4,18 +4,19 @@ Under sanitizers what they find is the failure of the program that showed it; a 
 Programs for another platform run in an emulator of it.
 """
 
+import functools
 import os
 import re
 import subprocess
 import tempfile
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import addon
 from setup import cache, platforms
 from setup.platforms import Platform
+from testing.jobs import PROCESSORS, Job, carry_out
 from testing.results import Result, matching
 
 TIME_LIMIT = 600  # (unit: seconds) a program
@@ -56,25 +57,29 @@ def named_in(source: Path) -> list[str]:
     return [f"cpp.{layer}.{suite}.{test}" for suite, test in _TEST.findall(source.read_text())]
 
 
-def run(
+def run(wanted: str, sanitizers: str = "", platform: Platform | None = None) -> list[Result]:
+    return carry_out(jobs(wanted, sanitizers, platform), {}).results
+
+
+def jobs(
     wanted: str, sanitizers: str = "", platform: Platform | None = None, is_reached: Callable[[str], bool] = lambda _: True
-) -> list[Result]:
+) -> list[Job]:
     platform = platform or platforms.host()
     variant = cache.variant("template_debug", sanitizers, platform.name if platform.is_foreign else "")
     folder = cache.clone() / "build" / variant / "tests"
     programs = [program for program in sorted(folder.glob("test_*")) if (cache.clone() / "tests" / _layer(program)).is_dir()]
     time_limit = SLOW_TIME_LIMIT if sanitizers or platform.is_foreign else TIME_LIMIT
-    processors = len(os.sched_getaffinity(0))
-    with ThreadPoolExecutor(processors) as pool:
-        chosen = {program: list(filter(is_reached, _chosen(program, wanted, platform))) for program in programs}
-        parts = [(program, part) for program in programs for part in _parts(program, chosen[program], processors)]
-        results = pool.map(lambda part: _run_program(*part, time_limit, platform), parts)
-    return sum(results, _left_out(folder, wanted))
+    found = [Job("cpp", "cpp.left_out", lambda: _left_out(folder, wanted))]
+    for program in programs:
+        for number, part in enumerate(_parts(program, list(filter(is_reached, _chosen(program, wanted, platform))))):
+            run = functools.partial(_run_program, program, part, time_limit, platform)
+            found.append(Job("cpp", f"cpp.{_layer(program)}.{number}", run))
+    return found
 
 
-def _parts(program: Path, chosen: list[str], processors: int) -> list[list[str]]:
+def _parts(program: Path, chosen: list[str]) -> list[list[str]]:
     """The tests that are asked for: as many lists as there are processors where none waits for a clock."""
-    count = processors if _layer(program) in IN_VIRTUAL_TIME else 1
+    count = PROCESSORS if _layer(program) in IN_VIRTUAL_TIME else 1
     return [part for part in (chosen[start::count] for start in range(count)) if part]
 
 

@@ -4,10 +4,11 @@ import subprocess
 from pathlib import Path
 
 from setup import cache
+from testing.jobs import Job
 from testing.results import Result, matching
 
 
-def run(wanted: str) -> list[Result]:
+def jobs(wanted: str) -> list[Job]:
     cpp = _files("extension", "tests", "tools", endings=(".cpp", ".hpp"))
     gd = _files("demo_project", "tests", "tools", endings=(".gd",))
     checks = {
@@ -15,7 +16,8 @@ def run(wanted: str) -> list[Result]:
         "format.gdformat": (["gdformat", "--check", "--line-length=110"], gd),
         "format.gdlint": (["gdlint"], gd),
     }
-    return [_check(name, *checks[name]) for name in matching(list(checks), wanted) if checks[name][1]]
+    chosen = [name for name in matching(list(checks), wanted) if checks[name][1]]
+    return [Job("format", name, lambda name=name: [_check(name, *checks[name])]) for name in chosen]
 
 
 def _files(*folders: str, endings: tuple[str, ...]) -> list[Path]:

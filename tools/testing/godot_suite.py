@@ -6,17 +6,17 @@ in the editor, and nowhere else.
 A file passes only with its END marker, and a test only without lines of error or leak that it has not announced.
 """
 
+import functools
 import os
 import re
 import shutil
 import subprocess
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-import build
 import project
 from setup import cache, godot
+from testing.jobs import Job
 from testing.results import Result, matching
 
 FOLDER = cache.clone() / "tests/godot"
@@ -41,8 +41,6 @@ script="editor_plugin.gd"
 """
 # What is freed is filled with this, so that a use after it shows.
 POISONED = os.environ | {"MALLOC_PERTURB_": "165"}
-# Most of their time they wait for a clock: some run side by side.
-AT_A_TIME = 2
 TIME_LIMIT = 300  # (unit: seconds) a file
 TROUBLE = re.compile(r"^\s*(ERROR|SCRIPT ERROR|USER ERROR|USER SCRIPT ERROR):|leaked at exit|still in use at exit|^Leaked ")
 
@@ -64,16 +62,22 @@ def _released_names(path: Path) -> list[str]:
     return [name.replace("godot.", "godot.released.", 1) for name in _names(path)] if path.stem in RELEASED else []
 
 
-def run(wanted: str, is_reached: Callable[[str], bool] = lambda _: True) -> list[Result]:
-    with ThreadPoolExecutor(AT_A_TIME) as pool:
-        found = [pool.submit(_run_released, wanted, is_reached)]
-        found += [pool.submit(_run_one, path, list(filter(is_reached, matching(_names(path), wanted)))) for path in _files()]
-        return sum((one.result() for one in found), [])
+def jobs(wanted: str, is_reached: Callable[[str], bool] = lambda _: True) -> list[Job]:
+    found = []
+    released = {path.stem: _of(_released_names(path), wanted, is_reached) for path in _files()}
+    if any(released.values()):
+        found.append(Job("godot", "godot.released", lambda: _run_released(released)))
+    for path in _files():
+        if chosen := _of(_names(path), wanted, is_reached):
+            found.append(Job("godot", f"godot.{path.stem}", functools.partial(_run_one, path, chosen)))
+    return found
+
+
+def _of(names: list[str], wanted: str, is_reached: Callable[[str], bool]) -> list[str]:
+    return list(filter(is_reached, matching(names, wanted)))
 
 
 def _run_one(path: Path, chosen: list[str]) -> list[Result]:
-    if not chosen:
-        return []
     if path.stem in EDITED:
         return _run_edited(path, chosen)
     if path.stem in NEED_EYES and not any(PROJECT.glob("addons/tactus/bin/libtactus_sensing.*")):
@@ -123,22 +127,21 @@ def _run(prefix: str, command: list, names: list[str], environment: dict[str, st
     return [Result(prefix + name, why, seconds=took.get(name, 0.0)) for name, why in verdicts.items()]
 
 
-def _run_released(wanted: str, is_reached: Callable[[str], bool]) -> list[Result]:
-    program, results = None, []
-    for stem in RELEASED:
-        prefix = f"godot.released.{stem}."
-        chosen = list(filter(is_reached, matching(_released_names(FOLDER / f"{stem}.gd"), wanted)))
+def _run_released(chosen_of: dict[str, list[str]]) -> list[Result]:
+    program, results = _export_tests(), []
+    for stem, chosen in chosen_of.items():
         if chosen:
-            program = program or _export_tests()
+            prefix = f"godot.released.{stem}."
             command = [program, "--headless", "--", f"res://tests/{stem}.gd"]
             results += _run(prefix, command, [name.removeprefix(prefix) for name in chosen])
     return results
 
 
 def _with_tests(folder: Path) -> Path:
-    """The demo project with the tests in it."""
+    """The demo project with the tests in it, and with what Godot has made of its pictures and meshes already."""
     cache.emptied(folder)
     shutil.copytree(PROJECT, folder, dirs_exist_ok=True, ignore=shutil.ignore_patterns(".godot"))
+    shutil.copytree(PROJECT / ".godot/imported", folder / ".godot/imported")
     (folder / "tests").mkdir()
     for path in FOLDER.glob("*.gd"):
         # The binding's own tests need an extension of their own.
@@ -149,14 +152,13 @@ def _with_tests(folder: Path) -> Path:
 
 def _export_tests() -> Path:
     """The demo project with the tests in it, whose main scene runs them."""
-    build.build("template_release", "extension")
     folder = _with_tests(cache.clone() / "build/released_tests")
     (folder / "tests/main.tscn").write_text(MAIN_SCENE)
     settings = folder / "project.godot"
     # A program for players keeps what it prints to itself for a while, and its errors not: here their order matters.
     changed = 'run/main_scene="res://tests/main.tscn"\nrun/flush_stdout_on_print=true'
     settings.write_text(re.sub(r'run/main_scene=".*"', changed, settings.read_text()))
-    project.import_into(folder)
+    project.name_extension(folder)  # the export imports what is left
     program = cache.emptied(cache.clone() / "build/released_program") / "tests.x86_64"
     project.export_to(program, folder)
     return program

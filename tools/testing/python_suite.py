@@ -1,15 +1,16 @@
 """The tests of what stands behind ./run: tools.FILE.TEST."""
 
+import functools
 import re
 import subprocess
 import sys
 import tempfile
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from setup import cache
+from testing.jobs import Job
 from testing.results import Result, matching
 
 # What these files look at or start, as scons names it.
@@ -17,7 +18,8 @@ BUILT_FOR = {
     "test_proof.py": "fuzzers",
     "test_same_bits.py": "build/template_debug/tests/test_session",
 }
-AT_A_TIME = 3  # they build in folders of their own, or wait for processes and their turn
+
+SHORT = 0.5  # (unit: seconds)
 
 
 def has(wanted: str) -> bool:
@@ -35,27 +37,46 @@ def _named_in(path: Path) -> list[str]:
     return [f"tools.{path.stem}.{name}" for name in re.findall(r"^def (test_\w+)", path.read_text(), re.M)]
 
 
-def run(wanted: str, is_reached: Callable[[str], bool] = lambda _: True) -> list[Result]:
+def jobs(wanted: str, is_reached: Callable[[str], bool] | None, known: dict[str, float]) -> list[Job]:
+    """Files stay whole, for their fixtures are made once. `is_reached`: None where all tests are. `known`: what
+    times_of_files() gave the last time."""
+    if not wanted and is_reached is None:
+        return _jobs_of({path.stem: [path.name] for path in sorted((cache.clone() / "tests/tools").glob("test_*.py"))}, known)
     collected = _pytest("--collect-only", "-q").stdout.splitlines()
     identities = [line for line in collected if "::" in line]
     if not identities and collected and "no tests" not in collected[-1]:
-        return [Result("tools.collection", "\n".join(collected[-20:]))]
+        why = "\n".join(collected[-20:])
+        return [Job("python", "tools.collection", lambda: [Result("tools.collection", why)])]
     names = {_name(identity): identity for identity in identities}
-    chosen = list(filter(is_reached, matching(list(names), wanted)))
-    if not chosen:
-        return []
-    # Files stay whole: their fixtures are made once.
     files: dict[str, list[str]] = {}
-    for name in chosen:
+    for name in filter(is_reached, matching(list(names), wanted)):
         files.setdefault(name.split(".")[1], []).append(names[name])
-    with ThreadPoolExecutor(AT_A_TIME) as pool:
-        return sum(pool.map(_run, sorted(files.values(), key=len, reverse=True)), [])
+    return _jobs_of(files, known)
 
 
-def _run(identities: list[str]) -> list[Result]:
+def _jobs_of(files: dict[str, list[str]], known: dict[str, float]) -> list[Job]:
+    """Of each file what is asked of it, as pytest names it. What takes less time than pytest's start shares one."""
+    short = [file for file in files if known.get(f"tools.{file}", SHORT) < SHORT]
+    own = [Job("python", f"tools.{file}", functools.partial(_run, asked)) for file, asked in files.items() if file not in short]
+    shared = [name for file in short for name in files[file]]
+    return [*own, Job("python", "tools.short", lambda: _run(shared))] if short else own
+
+
+def times_of_files(results: list[Result]) -> dict[str, float]:
+    """By tools.FILE (unit: seconds)."""
+    times: dict[str, float] = {}
+    for result in results:
+        if result.name.startswith("tools."):
+            file = ".".join(result.name.split(".")[:2])
+            times[file] = times.get(file, 0.0) + result.seconds
+    return times
+
+
+def _run(asked: list[str]) -> list[Result]:
+    """`asked`: files, or some of their tests as pytest names them."""
     with tempfile.TemporaryDirectory() as folder:
         report = Path(folder) / "report.xml"
-        done = _pytest("-q", f"--junitxml={report}", *identities)
+        done = _pytest("-q", f"--junitxml={report}", *asked)
         if not report.is_file():
             return [Result("tools.pytest", f"ended with {done.returncode}:\n{done.stdout[-2000:]}{done.stderr[-2000:]}")]
         return [_result(case) for case in ElementTree.parse(report).iter("testcase")]

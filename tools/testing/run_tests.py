@@ -1,24 +1,21 @@
 """./run test [--times] [--changed] [--sanitize=LIST] [windows|arm64] [FILTER]: builds what the tests whose name contains
 FILTER need, runs them and ends with their count.
 
-The suites run side by side: C++ on all processors, Godot and the tools beside them, which wait for clocks most of the
-time. --times lists the slowest twenty. --changed leaves out what no change since the last green run can reach
+The suites run side by side, from one queue (jobs.py). --times lists the slowest twenty. --changed leaves out what no change since the last green run can reach
 (changed.py). With --sanitize=address,undefined or =thread only the C++ tests, watched by these, in a build of their own.
 `windows` and `arm64`: the C++ tests and the benches compiled for Windows, run by Wine, and for Linux on ARM, run by QEMU.
 """
 
 import argparse
-import threading
 import time
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 
 import build
 import entry
 import project
 from setup import platforms, steps
 from setup.platforms import Platform
-from testing import bench_suite, changed, cpp_suite, format_suite, godot_suite, python_suite, same_bits
+from testing import bench_suite, changed, cpp_suite, format_suite, godot_suite, jobs, python_suite, same_bits
 from testing.results import Result
 
 SLOWEST = 20
@@ -70,15 +67,17 @@ def _here(wanted: str, only_changed: bool) -> list[Result]:
         build.build("template_release", "extension", "sensing")
         steps.run([project.import_step()])
     reached = changed.since_last_green() if only_changed else changed.everything()
-    suites: dict[str, Callable[[], list[Result]]] = {
-        "format": lambda: format_suite.run(wanted),
-        "cpp": lambda: cpp_suite.run(wanted, is_reached=reached.cpp),
-        "godot": lambda: godot_suite.run(wanted, reached.godot),
-        "python": lambda: python_suite.run(wanted, reached.tools),
-    }
-    with ThreadPoolExecutor(len(suites)) as pool:
-        running = [pool.submit(_shown, name, run) for name, run in suites.items()]
-        results = [result for one in running for result in one.result()]
+    known, started = jobs.known_times(), time.monotonic()
+    asked = [
+        *format_suite.jobs(wanted),
+        *cpp_suite.jobs(wanted, is_reached=reached.cpp),
+        *godot_suite.jobs(wanted, reached.godot),
+        *python_suite.jobs(wanted, reached.tools if only_changed else None, known),
+    ]
+    done = jobs.carry_out(asked, known, lambda suite, found: _show(suite, found, time.monotonic() - started))
+    results = [result for result in done.results if not result.skipped]
+    if not wanted and not only_changed:
+        jobs.keep_times(done.times | python_suite.times_of_files(results))
     if not wanted and results and all(result.passed for result in results):
         changed.note_green()
     return results
@@ -89,26 +88,26 @@ def _build(targets: list[str], *options: str) -> None:
     build.build("template_debug", *targets, *options)
 
 
-_printing = threading.Lock()
-
-
 def _shown(name: str, run: Callable[[], list[Result]]) -> list[Result]:
     """What the suite found, without what was skipped; prints both."""
     started = time.monotonic()
-    all_found = run()
+    found = run()
+    _show(name, found, time.monotonic() - started)
+    return [result for result in found if not result.skipped]
+
+
+def _show(name: str, all_found: list[Result], seconds: float) -> None:
     skipped = [result for result in all_found if result.skipped]
     found = [result for result in all_found if not result.skipped]
-    with _printing:
-        for result in found:
-            if not result.passed:
-                print(f"FAIL {result.name}\n     " + result.why.strip().replace("\n", "\n     "))
-        for result in skipped:
-            print(f"SKIP {result.name}: {result.skipped}")
-        if found:
-            passed = sum(result.passed for result in found)
-            not_run = f", {len(skipped)} skipped" if skipped else ""
-            print(f"{name}: {passed} of {len(found)} passed{not_run}, {time.monotonic() - started:.1f} s", flush=True)
-    return found
+    for result in found:
+        if not result.passed:
+            print(f"FAIL {result.name}\n     " + result.why.strip().replace("\n", "\n     "))
+    for result in skipped:
+        print(f"SKIP {result.name}: {result.skipped}")
+    if found:
+        passed = sum(result.passed for result in found)
+        not_run = f", {len(skipped)} skipped" if skipped else ""
+        print(f"{name}: {passed} of {len(found)} passed{not_run}, {seconds:.1f} s", flush=True)
 
 
 def _print_slowest(results: list[Result]) -> None:
