@@ -28,7 +28,6 @@ from pathlib import Path
 import numpy as np
 
 from measuring import options
-from plots import seen
 from project import FOLDER
 from setup import godot
 
@@ -118,6 +117,8 @@ def _felt(said: dict[str, Lines], seconds: float) -> tuple[Lines, np.ndarray, np
 
 
 def draw(said: dict[str, Lines], seconds: float, name: str, output: Path) -> None:
+    from plots import seen
+
     here, felt, directly, there = _felt(said, seconds)
     since = np.array([line["since"] for line in here])
     forces = {"direct touch": directly, "on the hand": felt, "on the robot": there}

@@ -5,12 +5,12 @@ from pathlib import Path
 
 import replay
 
-from measuring import records
-from plots import motion
-
 
 def run(bundle: Path, output: Path) -> dict[str, object]:
     """The flat summary. Fails where something is not the same to the bit, or not all of it could be played."""
+    from measuring import records
+    from plots import motion
+
     code = replay.play(bundle, output)
     summary: dict[str, object] = {}
     for report in sorted(output.glob("*_replay.json")):

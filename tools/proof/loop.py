@@ -19,13 +19,12 @@ from shutil import which
 import build
 import numpy as np
 from measuring import host, options
-from plots import style
 from setup import cache
 
 CASES = ["idle", "loaded"]
 MOST_LATE = 20_000  # that is told apart (unit: microseconds)
 PRIORITY = 70  # HapticWorld.realtime_priority
-LOOPS = {"loop": ("haptic loop, a hand among boxes", style.MEASURED, "-"), "cyclictest": ("cyclictest", style.REFERENCE, "--")}
+LOOPS = {"loop": "haptic loop, a hand among boxes", "cyclictest": "cyclictest"}
 
 
 @dataclass(frozen=True)
@@ -122,11 +121,15 @@ def quantile(counts: np.ndarray, share: float) -> int:
 
 
 def draw(output: Path) -> Path:
+    from plots import style
+
+    looks = {"loop": (style.MEASURED, "-"), "cyclictest": (style.REFERENCE, "--")}
     cases = [case for case in CASES if (output / f"{case}.json").is_file()]
     drawn, axes = style.figure(1, len(cases), 4.6 * len(cases), 3.4)
     for column, case in enumerate(cases):
         every = {loop: np.array(one) for loop, one in json.loads((output / f"{case}.json").read_text()).items()}
-        for loop, (label, colour, line) in LOOPS.items():
+        for loop, label in LOOPS.items():
+            colour, line = looks[loop]
             late = np.flatnonzero(every[loop])
             shares = every[loop][late] / every[loop].sum()
             axes[0, column].step(late + 0.5, shares, where="mid", label=label, color=colour, linestyle=line)

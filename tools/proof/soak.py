@@ -15,7 +15,6 @@ from pathlib import Path
 
 import build
 from measuring import options
-from plots import style
 from project import FOLDER
 from setup import cache, godot
 from testing import godot_suite
@@ -70,6 +69,8 @@ def judge(samples: list[dict]) -> dict[str, object]:
 
 
 def draw(samples: list[dict], path: Path) -> None:
+    from plots import style
+
     drawn, axes = style.figure(1, 1, 7.0, 3.0)
     hours = [one["time"] / 3600 for one in samples]
     axes[0, 0].plot(hours, [one["resident_mb"] for one in samples], color=style.MEASURED)
