@@ -92,6 +92,8 @@ func test_every_folder_is_a_scene_of_the_menu_and_has_a_picture() -> void:
 
 ## Neither cut nor beyond the window, in the sizes of a small laptop, of the project and of a large screen.
 func test_the_words_of_every_scene_fit() -> void:
+	var rest := OS.low_processor_usage_mode_sleep_usec
+	OS.low_processor_usage_mode_sleep_usec = 1
 	for scene_name: String in Gallery.SCENES:
 		var scene := (load(Gallery.path_of(scene_name)) as PackedScene).instantiate()
 		Stepping.hold(scene)
@@ -110,6 +112,7 @@ func test_the_words_of_every_scene_fit() -> void:
 				check(window.encloses(area), "%s at %s: %s is at %s" % [scene_name, size, label.name, area])
 		scene.free()
 		await frames(1)
+	OS.low_processor_usage_mode_sleep_usec = rest
 
 
 func test_the_menu_opens_each_scene_with_the_mouse_and_goes_back() -> void:

@@ -46,7 +46,8 @@ def test_no_markup_of_the_editor_is_left(pages):
 
 
 def test_a_page_that_nothing_leads_to_is_an_error(tmp_path):
-    docs.write(tmp_path / "source")
+    (tmp_path / "source").mkdir()
+    (tmp_path / "source/index.md").write_text("# Pages\n")
     (tmp_path / "source/lonely.md").write_text("# Lonely\n\nSee [nowhere](nowhere.md).\n")
     problems = docs.make(tmp_path / "source", tmp_path / "out")
     assert "lonely.md" in problems and "nowhere" in problems

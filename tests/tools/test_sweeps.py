@@ -92,10 +92,16 @@ def cluster(folder: Path, workers: int) -> Iterator[tuple[str, list[subprocess.P
             one.wait()
 
 
-def test_a_cluster_of_two_workers_gives_the_rows_of_the_sweep_alone(hundred, tmp_path):
+@pytest.fixture(scope="module")
+def running(tmp_path_factory) -> Iterator[Settings]:
+    """A cluster of two workers, which takes longer to start than most sweeps here to play."""
+    with cluster(tmp_path_factory.mktemp("cluster"), 2) as (address, _):
+        yield Settings(cluster=address)
+
+
+def test_a_cluster_of_two_workers_gives_the_rows_of_the_sweep_alone(hundred, running, tmp_path):
     sweep, expected = hundred
-    with cluster(tmp_path, 2) as (address, _):
-        assert command.play(sweep, tmp_path / "out", Settings(cluster=address)) == 0
+    assert command.play(sweep, tmp_path / "out", running) == 0
     assert (tmp_path / "out/sweep.csv").read_text() == expected
     rows = expected.splitlines()
     assert len(rows) == 101 and rows[0].startswith("run,way,delay_ms,loss_share,seed,")
@@ -145,9 +151,9 @@ def test_a_killed_sweep_leaves_nothing_half_and_goes_on(hundred, tmp_path, monke
     assert (folder / "sweep.csv").read_text() == expected
 
 
-def test_what_is_done_is_kept_when_a_level_is_added(six, tmp_path, monkeypatch):
+def test_what_is_done_is_kept_when_a_level_is_added(six, running, tmp_path, monkeypatch):
     sweep, expected = six
-    assert command.play(sweep, tmp_path / "out", Settings(workers=1)) == 0
+    assert command.play(sweep, tmp_path / "out", running) == 0
     assert (tmp_path / "out/sweep.csv").read_text() == expected
     played = []
     monkeypatch.setattr(playing, "play", lambda runs, *_: played.extend(runs))
@@ -158,17 +164,17 @@ def test_what_is_done_is_kept_when_a_level_is_added(six, tmp_path, monkeypatch):
     assert [run.options["delay"] for run in played] == ["35", "35"]
 
 
-def test_a_damaged_and_a_partly_written_result_are_told_and_played_again(six, tmp_path, capsys):
+def test_a_damaged_and_a_partly_written_result_are_told_and_played_again(six, running, tmp_path, capsys):
     sweep, expected = six
     folder = tmp_path / "out"
-    assert command.play(sweep, folder, Settings(workers=1)) == 0
+    assert command.play(sweep, folder, running) == 0
     first, second, third, *_ = sorted((folder / "runs").glob("*.json"))
     first.write_text(first.read_text()[:200])
     second.write_text(re.sub(r'("force_error_mean_N": \d*\.?)\d', r"\g<1>7", second.read_text()))
     third.write_text("[]")
     (folder / "runs/0123.partial").write_text('{"check"')
     capsys.readouterr()
-    assert command.play(sweep, folder, Settings(workers=1)) == 0
+    assert command.play(sweep, folder, running) == 0
     told = capsys.readouterr().out
     assert all(f"{path} is damaged" in told for path in (first, second, third, folder / "runs/0123.partial"))
     assert "3 of them done before" in told
@@ -184,9 +190,9 @@ def test_a_result_of_other_sources_is_told_and_not_mixed_in(six, tmp_path, capsy
     assert (found.outdated, found.summaries, found.damaged) == (1, {}, [])
 
 
-def test_a_run_that_fails_is_told_and_the_others_are_kept(tmp_path, capsys):
+def test_a_run_that_fails_is_told_and_the_others_are_kept(running, tmp_path, capsys):
     sweep = described(SMALL | {"seeds": [1], "factors": {"set": ["", "nonsense=1"]}}, tmp_path)
-    assert command.play(sweep, tmp_path / "out", Settings(workers=1)) == 1
+    assert command.play(sweep, tmp_path / "out", running) == 1
     assert "--set=nonsense=1" in (told := capsys.readouterr().err) and "nonsense=1 is " in told
     assert len((tmp_path / "out/sweep.csv").read_text().splitlines()) == 2
     assert "What is missing" in (tmp_path / "out/report.html").read_text()
