@@ -29,15 +29,24 @@ const RAREST := 1e-6
 const LAPSES: Array[float] = [0.0, 0.02, 0.04, 0.06]
 const LAPSE_PRIOR: Array[float] = [0.4, 0.3, 0.2, 0.1]
 
-## By the difference that was presented: how often, and how often it was answered rightly.
-var _asked := {}
-var _right := {}
+## Where each difference that was presented is in the lists: its logarithm, and how often it was answered
+## rightly and wrongly.
+var _places := {}
+var _logarithms := PackedFloat64Array()
+var _rights := PackedFloat64Array()
+var _wrongs := PackedFloat64Array()
 var _trials := 0
 
 
 func add(difference: float, is_right: bool) -> void:
-	_asked[difference] = _asked.get(difference, 0) + 1
-	_right[difference] = _right.get(difference, 0) + int(is_right)
+	if not _places.has(difference):
+		_places[difference] = _logarithms.size()
+		_logarithms.append(log(difference))
+		_rights.append(0.0)
+		_wrongs.append(0.0)
+	var place: int = _places[difference]
+	_rights[place] += float(is_right)
+	_wrongs[place] += float(not is_right)
 	_trials += 1
 
 
@@ -77,19 +86,17 @@ func result() -> Dictionary:
 func _append_logarithms(
 	posterior: PackedFloat64Array, log_threshold: float, priors: PackedFloat64Array
 ) -> void:
+	var missed := PackedFloat64Array()
+	missed.resize(_logarithms.size())
 	for slope in SLOPES:
-		var missed := PackedFloat64Array()
-		for difference: float in _asked:
-			missed.append(exp(-log(2.0) * exp(slope * (log(difference) - log_threshold))))
+		for place in _logarithms.size():
+			missed[place] = exp(-log(2.0) * exp(slope * (_logarithms[place] - log_threshold)))
 		for lapse in LAPSES:
 			var value := priors[posterior.size() % priors.size()]
-			var place := 0
-			for difference: float in _asked:
+			for place in _logarithms.size():
 				# A wrong answer at a difference that nothing but a lapse could miss rules that out, and no more.
 				var wrong := maxf(0.5 * lapse + (1.0 - lapse) * 0.5 * missed[place], RAREST)
-				var right: int = _right[difference]
-				value += right * log(1.0 - wrong) + (_asked[difference] - right) * log(wrong)
-				place += 1
+				value += _rights[place] * log(1.0 - wrong) + _wrongs[place] * log(wrong)
 			posterior.append(value)
 
 
