@@ -2,6 +2,7 @@
 
 import json
 import re
+import xml.etree.ElementTree as ElementTree
 
 from measuring import columns
 from setup import cache
@@ -15,6 +16,15 @@ def test_every_column_of_rows_has_a_meaning():
         assert len(names) > 15
         for name in names:
             assert columns.meaning(name), name
+
+
+def test_so_has_every_number_of_a_loop():
+    """As rounds.csv of scenario1 and timing_networked has them, beside the rows of the recorder."""
+    reference = ElementTree.parse(cache.clone() / "extension/doc_classes/HapticWorld.xml")
+    names = [one.attrib["key"] for one in reference.iter("statistic")]
+    assert len(names) > 30
+    for name in [*names, "recorded_rows", "lost_rows", "steal_share", "share", "seed"]:
+        assert columns.meaning(name), name
 
 
 def test_units_are_those_at_the_end_of_the_name():

@@ -7,7 +7,7 @@ import pytest
 import second_script
 
 from experiments import linked_touch, scenario1, scenario4, timing_networked
-from measuring import teleop_processes
+from measuring import columns, teleop_processes
 
 
 def agree(found: dict, again: dict[str, float]) -> None:
@@ -28,6 +28,7 @@ def test_linked_touch(options, tmp_path):
     if options.get("scene") == "static":  # no body is followed there
         again = {key: value for key, value in again.items() if key in found}
     agree(found, again)
+    assert [key for key in found if not columns.meaning(key)] == [], "a sweep's table has them as columns"
     # The others are of the link and of the teleoperator's own state, which the rows have not.
     of_rows = ("force_", "felt_excess_1", "box_", "hand_position_", "model_final", "truth_final", "energy_at_hand", "energy_created", "let_go")
     assert {key for key in found if key.startswith(of_rows)} - set(again) == {"force_error_shifted_mean_N"} | (

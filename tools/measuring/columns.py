@@ -1,9 +1,13 @@
 """What the columns of an experiment's tables mean: columns.json beside them, a data dictionary."""
 
 import csv
+import functools
 import json
 import re
+import xml.etree.ElementTree as ElementTree
 from pathlib import Path
+
+from setup import cache
 
 FILE = "columns.json"
 
@@ -39,6 +43,12 @@ _MEANINGS = (
     (r"(model|environment)_beyond", "1: the body is beyond the line at the end, on that side"),
     (r"case|scheme|way|scenario|side|scene|hand|wrong|kind|correction|derivation|loop", "which one"),
     (r"run|round", "its number"),
+    (r"seed", "which packets are lost or late, what noise there is, and where the hand goes"),
+    (r"(recorded|lost)_rows", "rows of the recorder (lost: for which there was no room)"),
+    (r"share", "share of the periods that are no longer, 0 … 1"),
+    (r"alike", "true: both sides have the same settings"),
+    (r"(near|far)_says", "true: the link of that side says what differs"),
+    (r"seconds_until_right", "from the first contact to the last force error above 0.02 N, seconds"),
     (r"worse|diverged", "1: it is"),
     (r"settings", "keys of tests/shared/teleop_words.cpp"),
     (r"factor|level|against|measure", "what is compared: a factor's level against another one, by this figure"),
@@ -59,11 +69,24 @@ def meaning(column: str) -> str:
     for pattern, words in _MEANINGS:
         if re.fullmatch(pattern, column):
             return words
+    if column in _statistics():
+        unit = next((unit for ending, unit in _UNITS if column.endswith(ending)), "")
+        return _statistics()[column] + (f" ({unit})" if unit else "")
     bare = re.sub(r"_(mean|p50|p90|p95|p99|p999|max|min|most|median)$", "", column)
     for ending, unit in _UNITS:
         if bare.endswith(ending) or f"{ending}_" in bare:
             return f"{bare.replace(ending, '', 1).replace('_', ' ').strip()}, {unit}"
     return ""
+
+
+@functools.cache
+def _statistics() -> dict[str, str]:
+    """What get_statistics() of a world or a link has, in the words of the class reference."""
+    found: dict[str, str] = {}
+    for name in ("MMTLink", "HapticWorld"):
+        reference = ElementTree.parse(cache.clone() / f"extension/doc_classes/{name}.xml")
+        found |= {one.attrib["key"]: " ".join("".join(one.itertext()).split()) for one in reference.iter("statistic")}
+    return found
 
 
 def write(folder: Path) -> None:
