@@ -73,5 +73,18 @@ func test_rows_of_another_program_are_not_overwritten() -> void:
 		check_equal(FileAccess.get_file_as_string(file.csv_path()), "of another\n", "the file")
 
 
+func test_rows_behind_a_damaged_one_are_kept() -> void:
+	var file := _begin()
+	for i in 5:
+		check_equal(file.add({"trial": i + 1, "answer": i}), "", "problem")
+	file.leave()
+	var path := file.csv_path()
+	var damaged := FileAccess.get_file_as_string(path).replace("3,2\n", "3\n")
+	FileAccess.open(path, FileAccess.WRITE).store_string(damaged)
+	var problem := StudyFile.new().begin(_folder, "study", "P1", {"trials": 3}, {}, true)
+	check("row 3" in problem and "--goes_on=0" in problem, "the problem is '%s'" % problem)
+	check_equal(FileAccess.get_file_as_string(path), damaged, "the file")
+
+
 static func _name(folder: String) -> String:
 	return folder.get_file()

@@ -197,7 +197,8 @@ func _is_unfinished(settings: Dictionary) -> bool:
 	return same
 
 
-## Reads the rows of before. A last row that is not whole was never told to be kept, and goes.
+## Reads the rows of before. A last row without its end was never told to be kept, and goes; one before it
+## that is not whole is a damage that nothing is written over.
 func _go_on() -> String:
 	rows = []
 	var whole := ""
@@ -212,7 +213,11 @@ func _go_on() -> String:
 				row[_columns[i]] = cells[i]
 			rows.append(row)
 		else:
-			break
+			leave()
+			return (
+				"row %d of '%s' is damaged: mend it, or begin a new run with --goes_on=0"
+				% [rows.size() + 1, csv_path()]
+			)
 		whole += line + "\n"
 	_written = whole
 	return "" if whole == text else _kept(WholeFile.write(_path(".csv"), whole))
