@@ -1,4 +1,7 @@
-"""Whether the sources are as the formatters and the linter want them: format.TOOL."""
+"""Whether the sources are as the formatters and the linter want them: format.TOOL.
+
+A file that a tool has found right is not shown to it again as long as the file, the tool and its settings are the same.
+"""
 
 import subprocess
 from pathlib import Path
@@ -6,6 +9,9 @@ from pathlib import Path
 from setup import cache
 from testing.jobs import Job
 from testing.results import Result, matching
+
+# The tools' versions, and their own settings.
+SETTINGS = ["tools/requirements.txt", ".clang-format", ".gdlintrc"]
 
 
 def jobs(wanted: str) -> list[Job]:
@@ -27,7 +33,15 @@ def _files(*folders: str, endings: tuple[str, ...]) -> list[Path]:
 
 def _check(name: str, command: list[str], files: list[Path]) -> Result:
     tool, *options = command
-    done = subprocess.run(
-        [cache.venv_bin(tool), *options, *files], cwd=cache.clone(), text=True, capture_output=True
-    )
-    return Result(name, (done.stdout + done.stderr)[-3000:] if done.returncode != 0 else "")
+    kept = cache.clone() / "build/format" / f"{name}.txt"
+    found_right = set(kept.read_text().split()) if kept.is_file() else set()
+    settings = cache.digest(*command, *((cache.clone() / path).read_text() for path in SETTINGS))
+    digests = {path: cache.digest(settings, str(path.relative_to(cache.clone())), path.read_text()) for path in files}
+    asked = [path for path, digest in digests.items() if digest not in found_right]
+    if asked:
+        done = subprocess.run([cache.venv_bin(tool), *options, *asked], cwd=cache.clone(), text=True, capture_output=True)
+        if done.returncode != 0:
+            return Result(name, (done.stdout + done.stderr)[-3000:])
+        kept.parent.mkdir(parents=True, exist_ok=True)
+        kept.write_text("\n".join(digests.values()))
+    return Result(name)
