@@ -8,6 +8,7 @@
 #include <godot_cpp/variant/typed_array.hpp>
 #include <memory>
 
+#include "core/tool/tool_shape.hpp"
 #include "nodes/device_choice.hpp"
 #include "nodes/node_state.hpp"
 #include "nodes/properties.hpp"

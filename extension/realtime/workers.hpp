@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/tree/triangle_tree.hpp"
+#include "core/tree/parallel.hpp"
 
 namespace tactus {
 

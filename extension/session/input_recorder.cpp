@@ -2,7 +2,23 @@
 
 #include <algorithm>
 
+#include "core/geometry/touch_shape.hpp"
+#include "core/tree/triangle_tree.hpp"
+
 namespace tactus {
+
+call::Form call::Form::of(const ReadyBody& body) {
+    const BodyAddition& source = body.source;
+    Form form{source.description, source.touch_shapes, source.touch_material, source.detail, {}, nullptr};
+    if (source.soft) {
+        form.soft = {source.soft, &source.soft->design};
+        return form;
+    }
+    for (const TouchPart& part : body.touch->parts) {
+        form.lineages.push_back(part.tree() != nullptr ? part.tree()->lineage() : 0);
+    }
+    return form;
+}
 
 // Between a side and its link, and beside its port.
 class InputRecorder::LinkTap final : public Link, public PortTap {

@@ -9,7 +9,8 @@
 #include <variant>
 #include <vector>
 
-#include "core/geometry/touch_shape.hpp"
+#include "core/soft/soft_model.hpp"
+#include "core/tool/tool_shape.hpp"
 #include "session/session.hpp"
 #include "session/session_commands.hpp"
 #include "session/side_plan.hpp"
@@ -32,18 +33,7 @@ struct Form {
     std::vector<std::uint64_t> lineages;
     std::shared_ptr<const SoftDesign> soft;  // null: it does not give
 
-    static Form of(const ReadyBody& body) {
-        const BodyAddition& source = body.source;
-        Form form{source.description, source.touch_shapes, source.touch_material, source.detail, {}, nullptr};
-        if (source.soft) {
-            form.soft = {source.soft, &source.soft->design};
-            return form;
-        }
-        for (const TouchPart& part : body.touch->parts) {
-            form.lineages.push_back(part.tree() != nullptr ? part.tree()->lineage() : 0);
-        }
-        return form;
-    }
+    static Form of(const ReadyBody& body);
     const std::vector<PlacedShape>& touched() const {
         return touch_shapes.empty() ? description.shapes : touch_shapes;
     }

@@ -23,20 +23,10 @@
 #include "session/channel.hpp"
 #include "session/ghosts.hpp"
 #include "session/resimulator.hpp"
+#include "session/side_settings.hpp"
 #include "session/traditional_touch.hpp"
 
 namespace tactus {
-
-struct OperatorRoom {
-    std::size_t max_tracked = 64;       // moving bodies that are compared with the past; others are put where
-                                        // the far side saw them
-    std::size_t samples = 1024;         // of the past; states that are older are brought to the present by
-                                        // their velocity, once no hand has pressed anything since
-    std::size_t samples_a_memento = 8;  // a replay does up to so many ticks more
-    std::size_t memento_bytes = 65536;  // of physics in each (see PhysicsWorld::save)
-    std::size_t pointers = 4;           // that can be carried along (stealthy_translate, stealthy_turn)
-    bool replays = true;                // false: no twin, re-simulation is not available
-};
 
 // What of a body that a pointer rests on is felt later only.
 struct TouchedBody {

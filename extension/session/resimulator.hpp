@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "session/loop_memento.hpp"
 #include "session/model_past.hpp"
 
 namespace tactus {

@@ -22,13 +22,16 @@
 #include "realtime/tick_status.hpp"
 #include "realtime/tick_trace.hpp"
 #include "session/session_types.hpp"
-#include "session/soft_slot.hpp"
-#include "session/teleop_side.hpp"
+#include "session/soft_view.hpp"
 
 namespace tactus {
 
 class InputRecorder;
+class SoftSlot;
+class TeleopSide;
 struct LinkEnd;
+struct SoftModel;
+struct ToolShape;
 
 struct BodyAddition {
     BodyDescription description;

@@ -9,9 +9,15 @@
 #include "core/ports/device.hpp"
 #include "realtime/recorder_ring.hpp"
 #include "session/session_types.hpp"
-#include "session/soft_slot.hpp"
-#include "session/teleop_side.hpp"
-#include "session/tool_slot.hpp"
+
+namespace tactus {
+
+class Proxy;
+class SoftSlot;
+class TeleopSide;
+struct ToolSlot;
+
+}  // namespace tactus
 
 namespace tactus::command {
 
@@ -193,7 +199,7 @@ struct Retired {
     std::shared_ptr<const TouchDetail> detail;
     std::unique_ptr<TeleopSide> side;
     std::shared_ptr<const TouchShape> former_shape = nullptr;
-    std::unique_ptr<ToolSlot> tool = nullptr;
+    std::unique_ptr<ToolSlot> tool{};
 };
 
 // The same command for a twin, where it concerns one: what it owns is taken from `command`. False where it

@@ -12,16 +12,20 @@
 #include "core/haptics/hand_field.hpp"
 #include "core/haptics/surface_effects.hpp"
 #include "core/haptics/touch_scene.hpp"
+#include "core/proxy/proxy.hpp"
 #include "physics/physics_world.hpp"
 #include "realtime/tick_trace.hpp"
 #include "realtime/triple_buffer.hpp"
 #include "session/change_order.hpp"
 #include "session/session_commands.hpp"
+#include "session/soft_slot.hpp"
 #include "session/teleop_side.hpp"
+#include "session/tool_slot.hpp"
 
 namespace tactus {
 
 class InputRecorder;
+struct LoopMemento;
 
 // A device as what drives it has to know it.
 struct RobotView {

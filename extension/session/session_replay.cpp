@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "session/loop_memento.hpp"
 #include "session/session_loop.hpp"
 
 namespace tactus {

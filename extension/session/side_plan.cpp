@@ -1,7 +1,9 @@
 #include "session/side_plan.hpp"
 
+#include "session/operator_side.hpp"
 #include "session/robot_side.hpp"
 #include "session/shared_environment.hpp"
+#include "session/teleoperator_side.hpp"
 
 namespace tactus {
 

@@ -5,8 +5,9 @@
 #include <memory>
 #include <vector>
 
-#include "session/operator_side.hpp"
-#include "session/teleoperator_side.hpp"
+#include "session/side_settings.hpp"
+#include "session/teleop_port.hpp"
+#include "session/teleop_side.hpp"
 
 namespace tactus {
 

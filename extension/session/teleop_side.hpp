@@ -2,13 +2,6 @@
 // owner (operator_side.hpp, teleoperator_side.hpp) and handed to Session::attach().
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <vector>
-
-#include "core/haptics/surface_effects.hpp"
-#include "core/math/body_motion.hpp"
-#include "core/proxy/proxy.hpp"
 #include "core/safety/force_exit.hpp"
 #include "session/session_types.hpp"
 
@@ -45,30 +38,6 @@ public:
 
     // A second loop with the same bodies, in which the past is replayed; null where there is none.
     virtual SessionLoop* twin() { return nullptr; }
-};
-
-// A moment of a loop. All memory is taken once.
-struct LoopMemento {
-    LoopMemento(std::size_t max_bodies, std::size_t bytes_of_physics)
-        : places(max_bodies), physics(bytes_of_physics) {}
-
-    struct Place {
-        SessionHandle handle = no_handle;
-        Pose pose;  // in the touch scene
-    };
-    struct Pointer {
-        ProxyMemory proxy;
-        EffectMemory effects;
-        TorsionList torsion;
-        Vec3 force{0.0};
-    };
-
-    std::size_t place_count = 0;
-    std::vector<Place> places;
-    std::size_t physics_bytes = 0;  // 0: nothing is saved here
-    std::vector<std::byte> physics;
-    std::array<Pointer, max_proxies> pointers;
-    std::array<ToolMemory, max_tools> tools;
 };
 
 }  // namespace tactus

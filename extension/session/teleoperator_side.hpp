@@ -8,23 +8,10 @@
 #include "session/ghosts.hpp"
 #include "session/played_hands.hpp"
 #include "session/press_limit.hpp"
+#include "session/side_settings.hpp"
 #include "session/tool_telling.hpp"
 
 namespace tactus {
-
-// Which pointers of the environment an operator has: of several operators, each has every so manieth.
-struct PointerShare {
-    std::size_t first = 0;
-    std::size_t every = 1;  // >= 1
-
-    // That stands in for a pointer of the operator.
-    std::size_t proxy_of(std::size_t pointer) const { return first + pointer * every; }
-    bool has(std::size_t proxy) const { return proxy >= first && (proxy - first) % every == 0; }
-    // Pointers of the operator that can have one.
-    std::size_t most(std::size_t all = max_proxies) const {
-        return first < all ? (all - first + every - 1) / every : 0;
-    }
-};
 
 class TeleoperatorSide final : public TeleopSide {
 public:

@@ -8,7 +8,9 @@
 #include "core/mesh/closed_mesh.hpp"
 #include "core/mesh/convex_hull.hpp"
 #include "core/mesh/smooth_normals.hpp"
+#include "core/tree/triangle_tree.hpp"
 #include "physics/solid_properties.hpp"
+#include "session/soft_slot.hpp"
 #include "world/same_shapes.hpp"
 
 namespace tactus {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "core/tree/triangle_tree.hpp"
 #include "platform/large_pages.hpp"
 
 namespace tactus {
@@ -19,7 +20,7 @@ std::shared_ptr<const TouchableTriangles> freed_aside(std::shared_ptr<const Touc
 void make(NarrowedTree& tree, const ParallelRunner& run, const StillWanted& is_wanted) {
     if (const auto narrower = narrowed(tree.whole, tree.radius, run, is_wanted)) {
         tree.touchable = freed_aside(narrower->parts.front().touchable);
-        std::ranges::for_each(tree.touchable->tree.memory(), move_to_large_pages);
+        std::ranges::for_each(tree.touchable->tree->memory(), move_to_large_pages);
     }
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/mesh/mesh_check.hpp"
+#include "core/tree/triangle_tree.hpp"
 #include "platform/large_pages.hpp"
 #include "realtime/workers.hpp"
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/geometry/touch_shape.hpp"
+#include "core/tree/triangle_tree.hpp"
 #include "physics/physics_world.hpp"
 #include "scene.hpp"
 

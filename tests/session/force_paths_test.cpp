@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "core/tool/tool_shape.hpp"
 #include "session_rig.hpp"
 #include "shared/meshes.hpp"
 

@@ -4,6 +4,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
 
+#include "core/tree/triangle_tree.hpp"
 #include "linked_places.hpp"
 #include "recorded_inputs.hpp"
 #include "shared/dice.hpp"

@@ -3,6 +3,7 @@
 
 #include <glm/gtc/quaternion.hpp>
 
+#include "core/tool/tool_shape.hpp"
 #include "linked_places.hpp"
 #include "shared/meshes.hpp"
 

@@ -3,6 +3,7 @@
 #include <functional>
 #include <glm/gtc/quaternion.hpp>
 
+#include "core/math/wrench.hpp"
 #include "linked_tools.hpp"
 #include "recorded_inputs.hpp"
 #include "support/realtime_audit.hpp"

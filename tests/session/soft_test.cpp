@@ -7,6 +7,8 @@
 #include <numbers>
 
 #include "core/math/bit_hash.hpp"
+#include "core/soft/soft_model.hpp"
+#include "core/tool/tool_shape.hpp"
 #include "session_rig.hpp"
 #include "shared/meshes.hpp"
 #include "shared/soft_figures.hpp"

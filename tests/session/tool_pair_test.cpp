@@ -2,6 +2,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <vector>
 
+#include "core/haptics/fading_force.hpp"
 #include "recorded_inputs.hpp"
 #include "session_rig.hpp"
 #include "shared/meshes.hpp"

@@ -2,6 +2,7 @@
 #include <optional>
 #include <vector>
 
+#include "session/loop_memento.hpp"
 #include "session/session_loop.hpp"
 #include "session_rig.hpp"
 

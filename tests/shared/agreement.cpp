@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "core/tool/tool_shape.hpp"
 #include "network/link_emulator.hpp"
 #include "network/memory_link.hpp"
 #include "session/session.hpp"

@@ -12,6 +12,7 @@
 
 #include "core/math/body_motion.hpp"
 #include "core/teleop/robot_drive.hpp"
+#include "core/tool/tool_shape.hpp"
 #include "session/session.hpp"
 
 namespace tactus::shared {

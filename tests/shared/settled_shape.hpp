@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/geometry/touch_shape.hpp"
+#include "core/tree/triangle_tree.hpp"
 #include "platform/large_pages.hpp"
 
 namespace tactus::shared {
@@ -14,7 +15,7 @@ inline void settle(const TouchShape& shape) {
             std::ranges::for_each(tree->memory(), move_to_large_pages);
         }
         if (part.touchable) {
-            std::ranges::for_each(part.touchable->tree.memory(), move_to_large_pages);
+            std::ranges::for_each(part.touchable->tree->memory(), move_to_large_pages);
         }
     }
 }

@@ -7,6 +7,8 @@
 #include <memory>
 #include <numbers>
 
+#include "core/soft/soft_body.hpp"
+#include "core/soft/soft_model.hpp"
 #include "session/session.hpp"
 #include "shared/bench_kit.hpp"
 #include "shared/judge_tree.hpp"

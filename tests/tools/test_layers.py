@@ -1,5 +1,6 @@
 """The build itself forbids what a layer may not include; the folders of one are in an order, too."""
 
+import functools
 import graphlib
 import re
 import shutil
@@ -119,6 +120,26 @@ def test_no_include_climbs_out_of_its_folder():
     sources = [path for path in (cache.clone() / "extension").rglob("*.[hc]pp")]
     climbing = [str(path) for path in sources if re.search(r'^\s*#\s*include\s*["<][^">]*\.\./', path.read_text(), re.M)]
     assert climbing == []
+
+
+@functools.cache
+def included(path: str) -> frozenset[str]:
+    """What a file of extension/ includes of it, directly or not."""
+    top = cache.clone() / "extension"
+    direct = {name for name in re.findall(r'^#include "([^"]+)"', (top / path).read_text(), re.M) if (top / name).is_file()}
+    return frozenset(direct.union(*map(included, direct)))
+
+
+def test_half_of_core_includes_the_header_that_the_bench_of_the_build_changes():
+    (header,) = re.findall(r'^HEADER = "extension/(.*?)"', (cache.clone() / "tests/bench/build.py").read_text(), re.M)
+    sources = [str(path.relative_to(cache.clone() / "extension")) for path in (cache.clone() / "extension/core").rglob("*.cpp")]
+    assert sum(header in included(source) for source in sources) >= len(sources) / 2
+
+
+# Plain values that go into a session and come out of it: who shows or asks them compiles without what moves a proxy.
+@pytest.mark.parametrize("header", ["session/session.hpp", "session/session_types.hpp", "session/side_plan.hpp", "realtime/workers.hpp"])
+def test_who_holds_a_session_sees_nothing_of_how_it_moves(header):
+    assert included(header) & {"core/tree/triangle_tree.hpp", "core/proxy/proxy.hpp", "core/tool/tool_proxy.hpp", "core/soft/soft_body.hpp"} == set()
 
 
 @pytest.mark.parametrize("layer", LAYERS)

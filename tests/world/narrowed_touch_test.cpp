@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "core/geometry/surface_query.hpp"
+#include "core/tree/triangle_tree.hpp"
 #include "shared/meshes.hpp"
 #include "shared/played_scene.hpp"
 #include "shared/rough_meshes.hpp"
@@ -120,7 +121,7 @@ TEST(NarrowedTouch, SteppedTimeWaitsForIt) {
     scene.frame();
     ASSERT_NE(scene.touchable(), nullptr);
     EXPECT_EQ(scene.touchable()->radius, touchable_share * fingertip);
-    EXPECT_LT(scene.touchable()->tree.triangle_count(),
+    EXPECT_LT(scene.touchable()->tree->triangle_count(),
               scene.mirrors.of(1)->twin().touch()->parts.front().tree()->triangle_count());
 }
 
@@ -283,7 +284,7 @@ TEST(NarrowedTouch, WhatIsGivenUpIsBegunAnew) {
         workers.wait();
         ASSERT_TRUE(tree->done);
         ASSERT_NE(tree->touchable, nullptr);
-        EXPECT_EQ(tree->touchable->tree.triangle_count(),
+        EXPECT_EQ(tree->touchable->tree->triangle_count(),
                   touchable_slots(*shape->parts.front().tree(), touchable_share * fingertip).size());
     }
 }

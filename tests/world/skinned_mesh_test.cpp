@@ -8,6 +8,8 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "core/tree/triangle_tree.hpp"
+
 namespace tactus::skinned_mesh_test {
 namespace {
 

@@ -5,6 +5,8 @@
 #include <future>
 #include <thread>
 
+#include "core/tree/triangle_tree.hpp"
+
 namespace tactus::triangle_source_test {
 namespace {
 

@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/tree/triangle_pack.hpp"
+#include "core/tree/triangle_tree.hpp"
 
 namespace tactus {
 

@@ -6,6 +6,7 @@
 
 #include "core/mesh/closed_mesh.hpp"
 #include "core/mesh/mesh_check.hpp"
+#include "core/tree/triangle_tree.hpp"
 
 namespace tactus {
 

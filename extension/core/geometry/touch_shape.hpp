@@ -12,9 +12,11 @@
 #include "core/geometry/solid.hpp"
 #include "core/geometry/touchable.hpp"
 #include "core/mesh/smooth_normals.hpp"
-#include "core/tree/triangle_tree.hpp"
+#include "core/tree/parallel.hpp"
 
 namespace tactus {
+
+class TriangleTree;
 
 struct TouchPart {
     Pose pose;  // of the part in the body's frame
@@ -37,7 +39,7 @@ struct TouchPart {
     // What such a sphere has to be kept clear of, wherever it fits (see touchable.hpp).
     const TriangleTree* tree_for(double sphere_radius) const {
         const bool holds = touchable && touchable->whole == tree() && sphere_radius >= touchable->radius;
-        return holds ? &touchable->tree : tree();
+        return holds ? touchable->tree.get() : tree();
     }
     const Solid& solid() const { return *std::get_if<Solid>(&surface); }
 };

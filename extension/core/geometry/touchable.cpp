@@ -240,9 +240,10 @@ std::shared_ptr<const TouchableTriangles> touchable_triangles(const TriangleTree
     for (const std::uint32_t slot : slots) {
         add_loose(mesh, tree.corners(slot));
     }
-    TouchableTriangles touchable{radius, &tree, TriangleTree::build(mesh, run)};
-    touchable.tree.name_triangles(slots);
-    return std::make_shared<const TouchableTriangles>(std::move(touchable));
+    auto touchable = std::make_shared<TriangleTree>(TriangleTree::build(mesh, run));
+    touchable->name_triangles(slots);
+    return std::make_shared<const TouchableTriangles>(
+        TouchableTriangles{radius, &tree, std::move(touchable)});
 }
 
 }  // namespace tactus

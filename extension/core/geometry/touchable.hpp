@@ -13,20 +13,22 @@
 //   clear of these, and is nowhere nearer than R to the others, is clear of all.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <vector>
 
 #include "core/tree/parallel.hpp"
-#include "core/tree/triangle_tree.hpp"
 
 namespace tactus {
+
+class TriangleTree;
 
 struct TouchableTriangles {
     double radius = 0.0;  // that spheres have at least (unit: meters)
     const TriangleTree* whole = nullptr;
     // Of these triangles alone. Its triangle_at() gives slots of the whole mesh's tree.
-    TriangleTree tree;
+    std::shared_ptr<const TriangleTree> tree;
 };
 
 // Share of a sphere's radius with which it is looked at what it can touch: it may be let into a surface by

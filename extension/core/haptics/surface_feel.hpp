@@ -3,6 +3,7 @@
 
 #include "core/haptics/contact.hpp"
 #include "core/haptics/touch_scene.hpp"
+#include "core/tree/triangle_pack.hpp"
 
 namespace tactus {
 

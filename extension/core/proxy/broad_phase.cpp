@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/tree/triangle_tree.hpp"
 #include "core/tree/work.hpp"
 
 namespace tactus {

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/math/perpendicular.hpp"
+#include "core/tree/triangle_tree.hpp"
 
 namespace tactus {
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "core/tree/triangle_tree.hpp"
+
 namespace tactus {
 
 namespace {

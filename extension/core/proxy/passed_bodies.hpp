@@ -10,7 +10,7 @@
 #include <span>
 
 #include "core/haptics/touch_scene.hpp"
-#include "core/tree/triangle_tree.hpp"
+#include "core/tree/work.hpp"
 
 namespace tactus {
 

@@ -11,19 +11,9 @@
 
 #include "core/proxy/descent.hpp"
 #include "core/proxy/letting_out.hpp"
+#include "core/proxy/proxy_settings.hpp"
 
 namespace tactus {
-
-enum ProxyStatus : std::uint32_t {
-    proxy_absent = 1u << 0,      // the hand is inside a body since the start: no touch until it is out
-    proxy_touching = 1u << 1,    // at least one contact holds it back
-    proxy_sliding = 1u << 2,     // dynamic friction applies
-    proxy_unfinished = 1u << 3,  // this tick's steps or work did not suffice: residual is not small
-    proxy_squeezed = 1u << 4,    // moving bodies leave it no room
-    // A body has come to stand where the proxy is, or has squeezed it: it is not touched until the proxy is
-    // out of it.
-    proxy_letting_out = 1u << 5,
-};
 
 struct ProxyTick {
     Vec3 position{0.0};     // of the sphere's centre, in the world (unit: meters)

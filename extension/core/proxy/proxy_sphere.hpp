@@ -3,16 +3,10 @@
 
 #include <cstdint>
 
+#include "core/proxy/proxy_settings.hpp"
 #include "core/proxy/surroundings.hpp"
 
 namespace tactus {
-
-struct ProxySettings {
-    double radius = 0.01;               // (unit: meters), > 0
-    std::uint32_t mask = 0xffff'ffffu;  // layers it touches
-    int max_steps = 64;                 // a tick; what is missing then is made up in the next
-    std::int64_t max_work = 18'000;     // a tick (see WorkBudget): about 0.3 ms
-};
 
 struct ProxySphere {
     ProxySphere(std::size_t max_parts, const ProxySettings& given)

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/tree/triangle_tree.hpp"
+
 namespace tactus {
 
 double SphereHood::others(const Vec3& center) const {

@@ -3,6 +3,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "core/tree/triangle_tree.hpp"
+
 namespace tactus {
 
 void TreeBoxes::around(const TriangleTree& tree, const Vec3& point, double radius, std::size_t most,

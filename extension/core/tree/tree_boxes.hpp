@@ -3,9 +3,11 @@
 
 #include <vector>
 
-#include "core/tree/triangle_tree.hpp"
+#include "core/math/types.hpp"
 
 namespace tactus {
+
+class TriangleTree;
 
 struct TreeBox {
     Vec3 low{0.0}, high{0.0};      // in the mesh's own frame (unit: meters)

@@ -311,7 +311,7 @@ public:
             std::snprintf(key, sizeof key, "_r%g", radius);
             report.set(
                 name_ + key + ".touchable_share",
-                part.touchable ? static_cast<double>(part.touchable->tree.triangle_count()) / all : 1.0);
+                part.touchable ? static_cast<double>(part.touchable->tree->triangle_count()) / all : 1.0);
             report.set(name_ + key + ".narrowing_ms", milliseconds);
         }
         return at->second;

@@ -121,7 +121,7 @@ TEST(Touchable, WhereverTheSphereFitsTheNearestTriangleIsOneItCanTouch) {
                 const double distance = distance_to(whole, center, 4.0 * radius);
                 if (distance >= radius * (1.0 - 1e-9)) {
                     ++fitting;
-                    ASSERT_NEAR(distance_to(touchable->tree, center, 4.0 * radius), distance, rounding)
+                    ASSERT_NEAR(distance_to(*touchable->tree, center, 4.0 * radius), distance, rounding)
                         << one.name << " " << radius;
                 }
             }
@@ -156,9 +156,9 @@ TEST(Touchable, ItsTrianglesAreThoseOfTheWhole) {
     const TriangleTree whole = TriangleTree::build(shared::scanned(4));
     const auto touchable = touchable_triangles(whole, 0.1);
     ASSERT_NE(touchable, nullptr);
-    for (std::uint32_t slot = 0; slot < 4 * touchable->tree.pack_count(); ++slot) {
-        const TriangleCorners own = touchable->tree.corners(slot);
-        const TriangleCorners named = whole.corners(touchable->tree.triangle_at(slot));
+    for (std::uint32_t slot = 0; slot < 4 * touchable->tree->pack_count(); ++slot) {
+        const TriangleCorners own = touchable->tree->corners(slot);
+        const TriangleCorners named = whole.corners(touchable->tree->triangle_at(slot));
         ASSERT_TRUE(own.a == named.a && own.b == named.b && own.c == named.c);
     }
 }
@@ -214,7 +214,7 @@ TEST(Touchable, ANarrowedShapeSaysNothingOfAnotherTree) {
     const auto narrower = narrowed(*shape, 0.1);
     ASSERT_NE(narrower, nullptr);
     TouchPart part = narrower->parts.front();
-    EXPECT_EQ(part.tree_for(0.1), &part.touchable->tree);
+    EXPECT_EQ(part.tree_for(0.1), part.touchable->tree.get());
     EXPECT_EQ(part.tree_for(0.09), part.tree());
     part.surface = std::make_shared<const TriangleTree>(TriangleTree::build(shared::scanned(4)));
     EXPECT_EQ(part.tree_for(0.1), part.tree());

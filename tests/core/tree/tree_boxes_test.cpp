@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "core/tree/triangle_tree.hpp"
 #include "shared/meshes.hpp"
 #include "shared/random_values.hpp"
 
