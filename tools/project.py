@@ -17,7 +17,7 @@ def import_step() -> Step:
 
 def import_resources() -> None:
     import_into(FOLDER)
-    _stamp().write_text(_content())
+    _stamp().write_text(content())
 
 
 def name_extension(folder: Path) -> None:
@@ -42,14 +42,14 @@ def import_into(folder: Path) -> None:
 
 
 def _is_imported() -> bool:
-    return _stamp().is_file() and _stamp().read_text() == _content()
+    return _stamp().is_file() and _stamp().read_text() == content()
 
 
 def _stamp() -> Path:
     return FOLDER / ".godot/imported_content"
 
 
-def _content() -> str:
+def content() -> str:
     """Names, sizes and times of what Godot imports."""
     digest = hashlib.sha256(str(godot.command()).encode())
     for path in sorted(FOLDER.rglob("*")):

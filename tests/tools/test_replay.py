@@ -16,6 +16,7 @@ import replay
 import project
 from measuring import records
 from setup import cache, godot
+from testing import exports
 
 
 def play(program: list, *options: str) -> subprocess.CompletedProcess:
@@ -24,10 +25,8 @@ def play(program: list, *options: str) -> subprocess.CompletedProcess:
 
 
 @pytest.fixture(scope="module")
-def exported(tmp_path_factory) -> list:
-    program = tmp_path_factory.mktemp("export") / "tactus.x86_64"
-    project.export_to(program)
-    return [program]
+def exported() -> list:
+    return [exports.of_project()]
 
 
 @pytest.fixture(scope="module")

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-import project
 from measuring.scene_run import Case, play
+from testing import exports
 
 SECONDS = 3.0  # the first touch of the sphere, and the box pushed
 STATIC = Case("static", "res://gallery/static_testbed/static_testbed.tscn")
@@ -16,10 +16,8 @@ MESHES = Case("meshes", "res://gallery/mesh_library/mesh_library.tscn")  # which
 
 
 @pytest.fixture(scope="module")
-def exported(tmp_path_factory) -> Path:
-    program = tmp_path_factory.mktemp("export") / "tactus.x86_64"
-    project.export_to(program)
-    return program
+def exported() -> Path:
+    return exports.of_project()
 
 
 def rows(case: Case, folder: Path) -> bytes:

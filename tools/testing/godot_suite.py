@@ -16,6 +16,7 @@ from pathlib import Path
 
 import project
 from setup import cache, godot
+from testing import exports
 from testing.jobs import Job
 from testing.results import Result, matching
 
@@ -128,7 +129,7 @@ def _run(prefix: str, command: list, names: list[str], environment: dict[str, st
 
 
 def _run_released(chosen_of: dict[str, list[str]]) -> list[Result]:
-    program, results = _export_tests(), []
+    program, results = _exported_tests(), []
     for stem, chosen in chosen_of.items():
         if chosen:
             prefix = f"godot.released.{stem}."
@@ -150,8 +151,13 @@ def _with_tests(folder: Path) -> Path:
     return folder
 
 
-def _export_tests() -> Path:
+def _exported_tests() -> Path:
     """The demo project with the tests in it, whose main scene runs them."""
+    content = cache.digest(project.content(), *(path.read_text() for path in [*sorted(FOLDER.glob("*.gd")), Path(__file__)]))
+    return exports.kept(cache.clone() / "build/released_program", content, _export_tests)
+
+
+def _export_tests(program: Path) -> None:
     folder = _with_tests(cache.clone() / "build/released_tests")
     (folder / "tests/main.tscn").write_text(MAIN_SCENE)
     settings = folder / "project.godot"
@@ -159,9 +165,7 @@ def _export_tests() -> Path:
     changed = 'run/main_scene="res://tests/main.tscn"\nrun/flush_stdout_on_print=true'
     settings.write_text(re.sub(r'run/main_scene=".*"', changed, settings.read_text()))
     project.name_extension(folder)  # the export imports what is left
-    program = cache.emptied(cache.clone() / "build/released_program") / "tests.x86_64"
     project.export_to(program, folder)
-    return program
 
 
 def times(output: str) -> dict[str, float]:
