@@ -10,6 +10,11 @@ from setup.progress import Pace, Progress, in_words
 from setup.steps import Step
 
 
+# In the environment of what a command starts that has built all that they need, such as ./run test: the clone, and each
+# TARGET:WHAT that is up to date, a line each.
+BUILT = "TACTUS_BUILT"
+
+
 def step(target: str, *more: str) -> Step:
     """Builds the extension, and more of scons's targets; SCons itself knows what is up to date."""
 
@@ -28,6 +33,8 @@ def _shown(line: str, pace: Pace) -> str:
 
 def build(target: str, *what: str) -> None:
     """What is to be built: SCons's own arguments, such as sanitize=thread, may stand among it."""
+    if is_declared(target, *what):
+        return
     options = ["-s", f"-j{os.cpu_count() or 1}", f"target={target}", "progress=yes"]
     if named := os.environ.get("GODOT_CPP"):
         # As the caller's folder has it; SCons runs in the clone.
@@ -52,3 +59,14 @@ def build(target: str, *what: str) -> None:
     if scons.returncode != 0:
         print("".join(printed), file=sys.stderr)
         raise RuntimeError(f"the build of {target} failed")
+
+
+def declare(built: dict[str, list[str]]) -> None:
+    """That these are up to date, by their target, for all processes that this one starts: SCons takes seconds to see it."""
+    lines = [f"{target}:{one}" for target, what in built.items() for one in what]
+    os.environ[BUILT] = "\n".join([str(cache.clone()), *lines])
+
+
+def is_declared(target: str, *what: str) -> bool:
+    clone, *built = os.environ.get(BUILT, "").split("\n")
+    return clone == str(cache.clone()) and {f"{target}:{one}" for one in what} <= set(built)

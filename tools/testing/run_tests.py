@@ -19,6 +19,7 @@ from testing import bench_suite, changed, cpp_suite, format_suite, godot_suite, 
 from testing.results import Result
 
 SLOWEST = 20
+PLAYS_CASES = "build/template_release/bench/teleop"  # what most tests of experiments start
 
 
 def main(arguments: list[str]) -> int:
@@ -61,10 +62,12 @@ def _here(wanted: str, only_changed: bool) -> list[Result]:
     in_project = godot_suite.has(wanted) or python_suite.has(wanted)
     programs = [*cpp_suite.programs_with(wanted), *python_suite.programs_with(wanted)]
     targets = [*(["extension", "sensing", "probe"] if in_project else []), *programs]
+    released = ["extension", "sensing", *([] if wanted else [PLAYS_CASES])]
     if targets:
         _build(targets)
     if in_project:
-        build.build("template_release", "extension", "sensing")
+        build.build("template_release", *released)
+        build.declare({"template_debug": targets, "template_release": released})
         steps.run([project.import_step()])
     reached = changed.since_last_green() if only_changed else changed.everything()
     known, started = jobs.known_times(), time.monotonic()
