@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "sensing/openni/camera.hpp"
+#include "sensing/recording/images_file.hpp"
 #include "sensing/recording/recorded_frames.hpp"
 
 namespace tactus {
@@ -12,15 +13,21 @@ namespace {
 namespace fs = std::filesystem;
 
 // All its images are in the file that they come from.
-std::string copy_recording(const std::string& from, const std::string& to) {
+std::string copy_recording(const std::string& from, std::string to) {
     std::error_code error;
     if (to.empty() || fs::equivalent(from, to, error)) {
         return "";
     }
+    if (std::string refusal = make_images_file(to); !refusal.empty()) {
+        return refusal;
+    }
     fs::copy_file(from, to, fs::copy_options::overwrite_existing, error);
-    return error ? "its images cannot be recorded into '" + to + "' (" + error.message() +
-                       "): name another file, or none"
-                 : "";
+    if (!error) {
+        return "";
+    }
+    std::error_code ignored;
+    fs::remove(to, ignored);
+    return images_file_error(to, error.message());
 }
 
 std::unique_ptr<FrameSource> open_recording(const SourceChoice& choice, std::string& error) {

@@ -1,11 +1,16 @@
 // Recordings as OpenNI2 itself makes them.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
+#include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <memory>
 #include <optional>
+#include <set>
 
 #include "scene.hpp"
 #include "sensing/openni/camera.hpp"
@@ -106,6 +111,110 @@ TEST_F(Recording, WhereNoFileCanBeIsSaidSo) {
     const std::string error = camera.open({.uri = scene.uri(), .record_to = "/nowhere/images.oni"});
     EXPECT_NE(error.find("cannot be recorded into '/nowhere/images.oni'"), std::string::npos) << error;
     EXPECT_EQ(camera.open({.uri = scene.uri()}), "");
+}
+
+std::string content(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+// A folder of its own for each test.
+class RecordingFiles : public ::testing::Test {
+protected:
+    RecordingFiles() {
+        fs::create_directories(folder_);
+        scene_.show(1);
+    }
+    ~RecordingFiles() override { fs::remove_all(folder_); }
+
+    std::set<std::string> names() const {
+        std::set<std::string> names;
+        for (const fs::directory_entry& entry : fs::directory_iterator(folder_)) {
+            names.insert(entry.path().filename().string());
+        }
+        return names;
+    }
+    std::string path(const std::string& name) const { return (folder_ / name).string(); }
+    void read_frames(Camera& camera, int count) {
+        DepthImage image;
+        for (int i = 1; i <= count; ++i) {
+            scene_.move(0.005);
+            scene_.show(33333u * static_cast<std::uint64_t>(i));
+            ASSERT_EQ(camera.read(image, 2000), Camera::Reading::frame);
+        }
+    }
+
+    fs::path folder_ = fs::temp_directory_path() / ("tactus_images_" + std::to_string(getpid()));
+    Scene scene_;
+};
+
+TEST_F(RecordingFiles, AreNeverWrittenOver) {
+    std::ofstream(path("images.oni")) << "of yesterday";
+    for (int i = 0; i < 2; ++i) {
+        Camera camera(testing::openni());
+        ASSERT_EQ(camera.open({.uri = scene_.uri(), .record_to = path("images.oni")}), "");
+        read_frames(camera, 4);
+    }
+    EXPECT_EQ(content(path("images.oni")), "of yesterday");
+    EXPECT_EQ(names(), (std::set<std::string>{"images.oni", "images_2.oni", "images_3.oni"}));
+    RecordedFrames frames;
+    EXPECT_EQ(frames.open(path("images_3.oni"), {}), "");
+}
+
+TEST_F(RecordingFiles, OfACopyAreNeverWrittenOver) {
+    {
+        Camera camera(testing::openni());
+        ASSERT_EQ(camera.open({.uri = scene_.uri(), .record_to = path("images.oni")}), "");
+        read_frames(camera, 4);
+    }
+    std::ofstream(path("copy.oni")) << "of yesterday";
+    std::string error;
+    EXPECT_TRUE(open_source({.uri = path("images.oni"), .record_to = path("copy.oni")}, "", error)) << error;
+    EXPECT_EQ(content(path("copy.oni")), "of yesterday");
+    EXPECT_EQ(content(path("copy_2.oni")), content(path("images.oni")));
+}
+
+TEST_F(RecordingFiles, OfACameraThatIsNotThereAreNone) {
+    for (int i = 0; i < 3; ++i) {
+        Camera camera(testing::openni());
+        EXPECT_NE(camera.open({.uri = "no camera", .record_to = path("images.oni")}), "");
+    }
+    EXPECT_TRUE(names().empty());
+}
+
+TEST_F(RecordingFiles, EndWholeBeforeTheDiskIsFull) {
+    const std::uintmax_t free = fs::space(folder_).available;
+    {
+        Camera camera(testing::openni());
+        const Camera::Choice choice{
+            .uri = scene_.uri(), .record_to = path("images.oni"), .kept_free = 2 * free};
+        ASSERT_EQ(camera.open(choice), "");
+        EXPECT_EQ(camera.remark(), "");
+        read_frames(camera, 4);
+        EXPECT_NE(camera.remark().find("its disk is nearly full"), std::string::npos) << camera.remark();
+    }
+    RecordedFrames frames;
+    EXPECT_EQ(frames.open(path("images.oni"), {}), "");
+}
+
+// OpenNI2 tells of no write that fails: what it wrote before is played, the program goes on.
+TEST_F(RecordingFiles, OfADiskThatIsFullEndNoProgram) {
+    const auto limited = [this] {
+        std::signal(SIGXFSZ, SIG_IGN);
+        const rlimit limit{80'000, 80'000};
+        setrlimit(RLIMIT_FSIZE, &limit);
+        Camera camera(testing::openni());
+        if (camera.open({.uri = scene_.uri(), .record_to = path("images.oni")}).empty()) {
+            read_frames(camera, 40);
+        }
+        camera.close();
+        std::_Exit(HasFailure() ? 1 : 0);
+    };
+    EXPECT_EXIT(limited(), ::testing::ExitedWithCode(0), "");
+    EXPECT_GT(fs::file_size(path("images.oni")), 70'000u);
+    RecordedFrames frames;
+    const std::string error = frames.open(path("images.oni"), {});
+    EXPECT_TRUE(error.empty()) << error;
 }
 
 // OpenNI2's own player, which a changed byte ends, is not to be had by the name of a file either.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -10,6 +9,7 @@
 #include <utility>
 
 #include "sensing/openni/frame_reading.hpp"
+#include "sensing/recording/images_file.hpp"
 
 namespace tactus {
 
@@ -38,6 +38,7 @@ bool is_view(float angle) {
 std::string Camera::open(const Choice& choice) {
     close();
     is_gone_ = false;
+    remark_.clear();
     std::string error = open_device(choice.uri);
     // Not before info_ is known, which the callback reads.
     OniDeviceCallbacks callbacks{nullptr, on_disconnected, nullptr};
@@ -46,16 +47,16 @@ std::string Camera::open(const Choice& choice) {
         error = open_stream(choice.width);
     }
     if (error.empty() && !choice.record_to.empty()) {
-        error = record(choice.record_to);
+        error = record(choice.record_to, choice.kept_free);
     }
     if (!error.empty()) {
-        close();
+        give_up();
         return error;
     }
     is_started_ = openni_->stream_start(stream_) == ONI_STATUS_OK;
     if (!is_started_) {
         error = name_ + " gives no depth: " + openni_.last_error();
-        close();
+        give_up();
     }
     return error;
 }
@@ -143,31 +144,50 @@ std::string Camera::read_geometry() {
 }
 
 // What the stream gives from its start on. OpenNI2's recorder may end the program where it cannot write: the
-// file is tried before.
-std::string Camera::record(const std::string& path) {
-    const auto refused = [&](const std::string& why) {
-        return "its images cannot be recorded into '" + path + "' (" + why + "): name another file, or none";
-    };
-    std::FILE* const file = std::fopen(path.c_str(), "wb");
-    if (file == nullptr) {
-        return refused(std::strerror(errno));
+// file is made before.
+std::string Camera::record(const std::string& wanted, std::uintmax_t reserve) {
+    recorded_ = wanted;
+    if (std::string error = make_images_file(recorded_); !error.empty()) {
+        return error;
     }
-    std::fclose(file);
-    if (openni_->create_recorder(path.c_str(), &recorder_) != ONI_STATUS_OK) {
+    reserve_ = reserve;
+    if (openni_->create_recorder(recorded_.c_str(), &recorder_) != ONI_STATUS_OK) {
         recorder_ = nullptr;
-        return refused(openni_.last_error());
+        std::remove(recorded_.c_str());
+        return images_file_error(recorded_, openni_.last_error());
     }
     const bool runs = openni_->recorder_attach_stream(recorder_, stream_, FALSE) == ONI_STATUS_OK &&
                       openni_->recorder_start(recorder_) == ONI_STATUS_OK;
-    return runs ? "" : refused(openni_.last_error());
+    return runs ? "" : images_file_error(recorded_, openni_.last_error());
 }
 
-void Camera::close() {
+void Camera::stop_recording() {
     if (recorder_ != nullptr) {
         openni_->recorder_stop(recorder_);
         openni_->recorder_destroy(&recorder_);
         recorder_ = nullptr;
     }
+}
+
+// The next try makes its own file.
+void Camera::give_up() {
+    const bool has_file = recorder_ != nullptr;
+    close();
+    if (has_file) {
+        std::remove(recorded_.c_str());
+    }
+}
+
+void Camera::keep_disk_free() {
+    if (recorder_ != nullptr && has_less_free(recorded_, reserve_)) {
+        stop_recording();
+        remark_ = "; '" + recorded_ +
+                  "' ends here, as its disk is nearly full: make room, then open the camera again";
+    }
+}
+
+void Camera::close() {
+    stop_recording();
     if (stream_ != nullptr) {
         if (std::exchange(is_started_, false)) {
             openni_->stream_stop(stream_);
@@ -204,6 +224,7 @@ FrameSource::Reading Camera::read(DepthImage& image, int wait_ms) {
     if (openni_->stream_read_frame(stream_, &frame) != ONI_STATUS_OK || frame == nullptr) {
         return without_frame();
     }
+    keep_disk_free();
     const Reading reading = take(*frame, image);
     openni_->frame_release(frame);
     return reading;

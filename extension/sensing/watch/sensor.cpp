@@ -139,31 +139,19 @@ void Sensor::follow(const Wanted& wanted) {
         camera_.reset();
         seen_ = {};
         last_frame_ = 0;
-        recordings_ = 0;
         observer_.forget();
         say(now_.camera ? SensorState::opening : SensorState::closed,
             now_.camera ? "opening the camera" : "closed");
     }
 }
 
-// One that was gone and is back does not write over what it has recorded before.
-std::string Sensor::next_recording(const std::string& path, int before) {
-    const std::size_t dot = path.rfind('.');
-    return path.empty() || before == 0 || dot == std::string::npos
-               ? path
-               : path.substr(0, dot) + "_" + std::to_string(before + 1) + path.substr(dot);
-}
-
 bool Sensor::try_to_open() {
-    SourceChoice choice = *now_.camera;
-    choice.record_to = next_recording(choice.record_to, recordings_);
     std::string error;
-    std::unique_ptr<FrameSource> camera = open_source_(choice, error);
+    std::unique_ptr<FrameSource> camera = open_source_(*now_.camera, error);
     if (camera == nullptr) {
         say(SensorState::opening, error);
         return false;
     }
-    ++recordings_;
     say(SensorState::waiting, camera->name() + " is open, waiting for its first frame");
     camera_ = std::move(camera);
     clock_.forget();
@@ -229,7 +217,7 @@ void Sensor::see(const DepthImage& image, Nanoseconds arrived) {
         return;
     }
     seen_.sight.state = SensorState::seeing;
-    seen_.text = "seeing through " + camera_->name() + observer_.remark();
+    seen_.text = "seeing through " + camera_->name() + camera_->remark() + observer_.remark();
     ++seen_.sight.frames;
     seen_.sight.camera_time = image.time_us;
     seen_.sight.seen_at = seen_at;

@@ -67,7 +67,6 @@ private:
     void look_once();
     void follow(const Wanted& wanted);
     bool try_to_open();
-    static std::string next_recording(const std::string& path, int before);
     void read_frame();
     void miss_damaged();
     void see(const DepthImage& image, Nanoseconds arrived);
@@ -97,7 +96,6 @@ private:
     DepthImage image_;
     Picture seen_, spare_;
     Nanoseconds last_frame_ = 0, last_fade_ = 0;
-    int recordings_ = 0;  // times that the camera was opened since it was chosen
 
     LastingThread thread_;
 };
