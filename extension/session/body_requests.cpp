@@ -100,7 +100,7 @@ std::string Session::deform_body(SessionHandle body, ReadyBody&& form) {
             impl_->note(call::DeformBody{body, call::Form::of(form)});
         }
         impl_->send(command::DeformBody{body, std::move(form.body), std::move(form.same_body),
-                                        std::move(form.touch)});
+                                        std::move(form.touch), std::move(form.soft)});
     }
     return std::move(form.error);
 }

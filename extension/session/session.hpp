@@ -90,7 +90,8 @@ public:
     // The body takes another form where it is, of as many shapes as before; what it is else stays. Where only
     // corners of its meshes have moved (see is_deformation), proxies that touch it are carried and pushed
     // along their way, however far that is; else they are let out of it. Its former touch shape is kept
-    // until the next form. An error is that of the new body, and nothing happens.
+    // until the next form. A body that gives goes on in its shape and motion, made otherwise (see
+    // same_structure). An error is that of the new body, and nothing happens.
     std::string deform_body(SessionHandle body, ReadyBody&& form);
     // `shape`: what narrowed() makes for that radius of what the body is touched by now. Nothing is felt of
     // it but that ticks are shorter. Of a body that gives, or of another form's triangles, it is not taken.

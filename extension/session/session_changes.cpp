@@ -188,9 +188,13 @@ bool SessionLoop::carry_out(command::RemoveBody& c, Retired& retired) {
 // before the last one has been touched takes its place.
 bool SessionLoop::carry_out(command::DeformBody& c, Retired& retired) {
     Body* const deformed = body(c.handle);
-    const bool fits = deformed && !deformed->soft && c.shape->parts.size() == deformed->shape->parts.size();
+    const bool fits =
+        deformed && !deformed->soft && !c.soft && c.shape->parts.size() == deformed->shape->parts.size();
     retired.kind = Retired::Kind::form;
-    if (fits) {
+    if (deformed && deformed->soft && c.soft) {
+        deformed->soft->exchange_make(*c.soft);
+        retired.shape = std::move(c.shape);
+    } else if (fits) {
         physics_.reshape(deformed->id, c.body);
         if (deformed->takes_form) {
             retired.shape = std::exchange(deformed->shape, std::move(c.shape));
@@ -529,8 +533,8 @@ struct Duplicate {
         return true;
     }
     bool operator()(command::DeformBody& c) {
-        same = command::DeformBody{c.handle, std::move(c.same_body), {}, c.shape};
-        return true;
+        same = command::DeformBody{c.handle, std::move(c.same_body), {}, c.shape, nullptr};
+        return !c.soft;  // it is touched at rest there
     }
     bool operator()(command::AddProxy& c) {
         same = command::AddProxy{c.handle, std::move(c.same_proxy), nullptr, c.description};

@@ -41,6 +41,7 @@ struct DeformBody {
     SessionHandle handle;
     PreparedBody body, same_body;  // as in AddBody
     std::shared_ptr<const TouchShape> shape;
+    std::shared_ptr<SoftSlot> soft;  // owns `shape`, then; null: it does not give
 };
 // The body's form, with more known of what can be touched of it (see narrowed()).
 struct NarrowTouch {

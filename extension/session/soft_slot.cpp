@@ -44,6 +44,16 @@ SoftSlot::SoftSlot(std::shared_ptr<const SoftModel> model, std::shared_ptr<SoftV
     }
 }
 
+bool SoftSlot::exchange_make(SoftSlot& other) {
+    if (!same_structure(body.model(), other.body.model())) {
+        return false;
+    }
+    other.body.go_on_from(body);
+    std::swap(body, other.body);
+    std::swap(view_, other.view_);
+    return true;
+}
+
 bool SoftSlot::take_form() {
     if (!std::exchange(moved_, false)) {
         return false;

@@ -34,6 +34,10 @@ public:
     SoftBody body;
     std::uint32_t mask;
 
+    // Goes on as the other is made, in its own shape and motion, and is shown where the other was. The other
+    // gets what it had. False, and nothing happens, where the two differ in more than what they are made of.
+    bool exchange_make(SoftSlot& other);
+
     // Its form as it was touched last, and the one that it takes next: true where that is another one.
     const TouchShape& form() const { return forms_[shown_]; }
     bool take_form();

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/math/body_motion.hpp"
+#include "core/soft/soft_model.hpp"
 #include "world/same_shapes.hpp"
 
 namespace tactus {
@@ -20,6 +21,11 @@ BodyMotion motion_of(const BodyPlace& place) {
 std::uint64_t next_revision() {
     static std::uint64_t last = 0;
     return ++last;
+}
+
+bool is_other_form_of_same(const BodyAddition& now, const BodyAddition& before) {
+    return now.soft && before.soft ? same_structure(*now.soft, *before.soft)
+                                   : !now.soft && !before.soft && is_deformation(*before.touch, *now.touch);
 }
 
 }  // namespace
@@ -107,12 +113,12 @@ void BodyTwin::stand_at(Session& session, const BodyPlace& now) {
     }
 }
 
-// Where only corners of its meshes have moved, the twin stays and takes the new form: whoever touches it is
-// taken along.
+// Where only corners of its meshes have moved, or what it gives by is made otherwise, the twin stays and
+// takes the new form: whoever touches it is taken along.
 bool BodyTwin::deform(Session& session, Job& job) {
     const BodyAddition& now = job.built.addition;
     if (handle_ == no_handle || !job.built.buildable || !job.built.body.error.empty() ||
-        !(job.plan.makings == made_of_) || !is_deformation(*addition_.touch, *now.touch)) {
+        !(job.plan.makings == made_of_) || !is_other_form_of_same(now, addition_)) {
         return false;
     }
     session.deform_body(handle_, std::move(job.built.body));

@@ -182,6 +182,30 @@ func test_another_stiffness_is_another_feeling() -> void:
 
 
 ## The path leads over all three in each of its rounds, and the box stays on the sponge.
+func test_what_is_made_otherwise_while_it_is_pressed_keeps_the_finger() -> void:
+	var changes := {"stiffness": 4e4, "damping": 0.02, "density": 3000.0, "poisson_ratio": 0.4}
+	for property: String in changes:
+		var world := add_world()
+		var soft := _block()
+		world.add_child(_body_of(soft))
+		var proxy := add_hand(world, path(Vector3(0, 0.1, 0), Vector3(0, 0.03, 0)))
+		world.advance(1.5)
+		var ended := []
+		proxy.contact_ended.connect(func(body: Node) -> void: ended.append(body))
+		var before := _highest(soft)
+		soft.set(property, changes[property])
+		var force := proxy.get_force()
+		for i in 100:
+			world.advance(0.01)
+			await get_tree().process_frame
+			check(proxy.is_touching(), "%s: the finger is let go after %d" % [property, i])
+			check(proxy.get_force().distance_to(force) <= 10 * 0.5, "%s: %s" % [property, proxy.get_force()])
+			force = proxy.get_force()
+		check_equal(ended.size(), 0, "%s: ended" % property)
+		check(before > 0.03 and proxy.get_force().y > 0.1, "%s: %s" % [property, proxy.get_force()])
+		world.free()
+
+
 func test_the_scene_of_things_that_give_plays_round_after_round() -> void:
 	var scene := add_scene("res://gallery/soft/soft.tscn")
 	var world: HapticWorld = scene.get_node("HapticWorld")

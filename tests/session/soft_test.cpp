@@ -99,6 +99,53 @@ TEST(Soft, HeldInItPressesSteadily) {
     EXPECT_NEAR(rig.device.force.y, held.force.y, 1e-4);
 }
 
+// The same block, made of another material.
+ReadyBody made_of(const SoftRig& rig, const SoftMaterial& material, int cells = 6) {
+    BodyAddition addition;
+    addition.description.pose.position = Vec3(0.0, 0.04, 0.0);
+    addition.touch_material = {500.0, 0.0, 0.0, 0.0};
+    addition.soft = make_soft_volume(shared::grid_box(Vec3(0.04), 6), cells, material, foot, 1e-3).model;
+    addition.soft_view = rig.view;
+    return Session::prepare_body(addition);
+}
+
+TEST(Soft, MadeOtherwiseUnderAHandKeepsItsShapeAndTheHand) {
+    const SoftMaterial yielding{.stiffness = 1e4, .damping = 0.01};
+    for (const SoftMaterial& other :
+         {SoftMaterial{.stiffness = 4e4, .damping = 0.01}, SoftMaterial{.stiffness = 2.5e3, .damping = 0.01},
+          SoftMaterial{.stiffness = 1e4, .poisson_ratio = 0.45, .damping = 0.02},
+          SoftMaterial{.stiffness = 1e4, .density = 3000.0, .damping = 0.01}}) {
+        SoftRig rig(yielding, foot);
+        rig.draw(Vec3(0.0, 0.07, 0.0), 200);
+        rig.ticks(1000);
+        ProxyState before = rig.proxy_state();
+        ASSERT_EQ(rig.session.deform_body(rig.handle, made_of(rig, other)), "");
+        for (int i = 0; i < 2000; ++i) {
+            rig.ticks(1);
+            const ProxyState& now = rig.proxy_state();
+            ASSERT_GE(now.contact_count, 1) << i;
+            ASSERT_LT(glm::distance(now.position, before.position), 1e-3) << i;
+            ASSERT_LT(glm::distance(now.force, before.force), 0.5) << i;
+            before = now;
+        }
+        SoftRig from_the_start(other, foot);
+        from_the_start.draw(Vec3(0.0, 0.07, 0.0), 200);
+        from_the_start.ticks(3000);
+        EXPECT_NEAR(before.force.y, from_the_start.proxy_state().force.y, 1e-3);
+        EXPECT_NEAR(before.position.y, from_the_start.proxy_state().position.y, 1e-5);
+    }
+}
+
+TEST(Soft, OfAnotherStructureDoesNotTakeTheMake) {
+    SoftRig rig({.stiffness = 1e4, .damping = 0.01}, foot);
+    rig.draw(Vec3(0.0, 0.07, 0.0), 200);
+    rig.ticks(1000);
+    const double before = rig.proxy_state().force.y;
+    ASSERT_EQ(rig.session.deform_body(rig.handle, made_of(rig, {.stiffness = 4e4}, 5)), "");
+    rig.ticks(100);
+    EXPECT_NEAR(rig.proxy_state().force.y, before, 1e-3);
+}
+
 Vec3 mean_place(const TriangleMesh& mesh) {
     Vec3 sum(0.0);
     for (const Vec3& vertex : mesh.vertices) {

@@ -95,6 +95,14 @@ void SoftBody::reset() {
     still_ticks_ = 0;
 }
 
+void SoftBody::go_on_from(const SoftBody& other) {
+    std::ranges::copy(other.place_, place_.begin());
+    std::ranges::copy(other.velocity_, velocity_.begin());
+    std::ranges::copy(other.turn_, turn_.begin());
+    iterations = other.iterations;
+    wake();
+}
+
 void SoftBody::put(std::size_t node, const Vec3& place, const Vec3& velocity) {
     place_[node] = row_of(place);
     velocity_[node] = row_of(velocity);

@@ -90,6 +90,8 @@ public:
 
     // Back in its shape at rest, and still.
     void reset();
+    // In the shape and the motion of one of the same structure (same_structure()), awake. Allocates nothing.
+    void go_on_from(const SoftBody& other);
 
     // Where the vertices of the surface are; as many as the model has. How far the farthest has gone from
     // where `out` had it (unit: meters).

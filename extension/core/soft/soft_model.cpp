@@ -286,6 +286,12 @@ bool SoftModel::is_free() const {
     return std::ranges::all_of(held, [](std::uint8_t h) { return h == 0; });
 }
 
+bool same_structure(const SoftModel& one, const SoftModel& other) {
+    return one.rest == other.rest && one.held == other.held &&
+           one.tetrahedra.size() == other.tetrahedra.size() && one.springs.size() == other.springs.size() &&
+           one.surface.triangles == other.surface.triangles && one.surface.vertices == other.surface.vertices;
+}
+
 double tetrahedron_volume(std::span<const Vec3> nodes, const Tetrahedron& t) {
     const Vec3& o = nodes[t[0]];
     return glm::dot(nodes[t[1]] - o, glm::cross(nodes[t[2]] - o, nodes[t[3]] - o)) / 6.0;

@@ -134,6 +134,10 @@ struct SoftModelResult {
 
 SoftModelResult make_soft(SoftDesign design);
 
+// Whether a body of the one may go on as one of the other: nodes, elements and surface are the same, only
+// what they are made of differs.
+bool same_structure(const SoftModel& one, const SoftModel& other);
+
 SoftModelResult make_soft_volume(const TriangleMesh& surface, int cells, const SoftMaterial& material,
                                  const HeldParts& held, double seconds);
 SoftModelResult make_soft_tetrahedra(std::span<const Vec3> vertices, std::span<const Tetrahedron> tetrahedra,
