@@ -23,7 +23,7 @@ ToolGroup::ToolGroup() {
 }
 
 void ToolGroup::add(ToolProxy& tool, const Pose& hand, double share) {
-    members_[count_++] = {&tool, hand, std::max(share, least_share), {}, State::still, false, 1.0, 0};
+    members_[count_++] = {&tool, hand, std::max(share, least_share), {}, State::still, false, false, 1.0, 0};
 }
 
 int ToolGroup::place_of(const ToolProxy& tool) {
@@ -97,7 +97,8 @@ void ToolGroup::move(const TouchScene& scene) {
 
 void ToolGroup::descend_together() {
     std::int64_t given = 0;
-    for (const Member& member : members()) {
+    for (Member& member : members()) {
+        member.trust = member.tool->trust_;
         given += member.moves() ? std::max<std::int64_t>(0, member.tool->work_.left()) : 0;
     }
     work_ = WorkBudget(given, 0, cost::pack_look);
@@ -128,6 +129,7 @@ void ToolGroup::finish() {
     for (Member& member : members()) {
         if (member.moves()) {
             member.tool->sliding_ = member.slid;
+            member.tool->trust_ = trust_after(member.tool->trust_, member.tick.steps, member.was_cut);
             member.tick.status |=
                 member.state == State::arrived ? 0u : static_cast<std::uint32_t>(tool_unfinished);
             member.tool->finish(member.tick);
@@ -282,6 +284,7 @@ void ToolGroup::judge(const Cluster& cluster, const Motions& gone) {
         Member& one = member(cluster.members[at(i)]);
         ++one.tick.steps;
         one.stalls = stalled ? one.stalls + 1 : 0;
+        one.was_cut = stalled && work_.is_gone();
         one.trust = stalled ? 0.25 * one.trust : std::min(1.0, 2.0 * one.trust);
         one.state = one.stalls >= max_stalls ? State::stuck : State::goes;
     }

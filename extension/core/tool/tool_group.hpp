@@ -43,7 +43,8 @@ private:
         double share = 1.0;
         ToolTick tick;
         State state = State::still;
-        bool slid = false;  // on a body
+        bool slid = false;     // on a body
+        bool was_cut = false;  // its last step, where the work has ended
         double trust = 1.0;
         int stalls = 0;
 

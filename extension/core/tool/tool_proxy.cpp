@@ -36,7 +36,7 @@ void ToolProxy::give_work(std::int64_t units) {
 }
 
 ToolMemory ToolProxy::memory() const {
-    ToolMemory memory{pose_, present_, sliding_, false, pace_, {}, 0};
+    ToolMemory memory{pose_, present_, sliding_, false, pace_, trust_, {}, 0};
     const auto hardest = hardest_touch();
     if (hardest != touching().end()) {
         memory.rests = true;
@@ -56,6 +56,7 @@ void ToolProxy::recall(const ToolMemory& memory, const TouchScene& scene) {
     present_ = memory.present;
     sliding_ = memory.sliding;
     pace_ = memory.pace;
+    trust_ = memory.trust;
     touch_count_ = memory.rests ? 1 : 0;
     meeting_count_ = 0;
     touches_[0] = memory.on;
@@ -80,6 +81,7 @@ ToolTick ToolProxy::appear(const Pose& hand) {
     sliding_ = at_rest_ = false;
     touch_count_ = meeting_count_ = 0;
     pace_ = 0.0;
+    trust_ = 1.0;
     ToolTick tick;
     tick.pose = hand;
     tick.jumped = true;
@@ -104,11 +106,12 @@ void ToolProxy::descend(const Pose& hand, ToolTick& tick) {
     const Pose from = pose_;
     bool slid = false;
     bool ended = false;
-    double trust = 1.0;
+    double trust = trust_;
     const bool touches = touch_count_ > 0;
     const double farthest = (touches ? ahead_of_tick : ahead_in_air) * pace_;
     const double at_least = (touches ? near_enough : far_enough) * skin();
     double ahead = farthest;
+    bool was_cut = false;  // the last step, where the work has ended
     for (int stalls = 0; stalls < max_stalls;) {
         const RigidMotion pull = motion_between(pose_, hand);
         const bool sees_all = look_around(pull, ahead + at_least, tick.steps == 0);
@@ -139,10 +142,12 @@ void ToolProxy::descend(const Pose& hand, ToolTick& tick) {
         // What a turn bends towards a surface grows with its square, what lifts the tool off with the turn.
         const double way = around_.farthest_way(gone);
         const bool stalled = way < least;
+        was_cut = stalled && work_.is_gone();
         stalls = stalled ? stalls + 1 : 0;
         trust = stalled ? 0.25 * trust : std::min(1.0, 2.0 * trust);
         ahead = touches ? std::min(farthest, ahead_of_step * way) : farthest;
     }
+    trust_ = trust_after(trust_, tick.steps, was_cut);
     sliding_ = slid;
     tick.status |= ended ? 0u : static_cast<std::uint32_t>(tool_unfinished);
 }

@@ -56,6 +56,7 @@ struct ToolMemory {
     bool sliding = false;
     bool rests = false;
     double pace = 0.0;  // (unit: meters)
+    double trust = 1.0;
     ToolTouch on;
     std::uint32_t slides_on = 0;  // bits, by the order of its pairs
 };
@@ -173,6 +174,7 @@ private:
     bool present_ = false;
     bool sliding_ = false;
     bool at_rest_ = false;  // it was where it should be: contacts are looked for as exactly as that needs
+    double trust_ = 1.0;    // share of its way that the next tick's first step tries
     double pace_ = 0.0;     // of the farthest sphere, in the last tick (unit: meters)
     WorkBudget work_{0};
     std::int64_t work_given_ = 0;

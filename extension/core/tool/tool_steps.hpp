@@ -52,6 +52,13 @@ inline double length_of(const Vector6& x) {
     return std::sqrt(sum);
 }
 
+// Share of its way that the next tick's first step tries. Where the sweeps of the first step have taken all
+// of the work and it has led nowhere, the same ones would do so again: it is shorter, until one leads
+// somewhere.
+inline double trust_after(double trust, int steps, bool was_cut) {
+    return was_cut && steps == 1 ? 0.25 * trust : 1.0;
+}
+
 // What of a way does not lift off.
 inline Vec3 along_surface(const Vec3& way, const Vec3& normal) {
     return way - normal * glm::dot(normal, way);

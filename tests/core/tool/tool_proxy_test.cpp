@@ -397,6 +397,18 @@ TEST(ToolProxy, CitizenAPegOfManySpheresGetsToTheBottomOfItsHole) {
     EXPECT_NEAR(hole.proxy->pose().position.x, 0.0, 5.1e-5);
 }
 
+TEST(ToolProxy, CitizenAPegLedSidewaysGetsToTheBottomOfItsHole) {
+    for (const Vec3& aside : {Vec3(3e-4, 0.0, 0.0), Vec3(0.002, 0.0, 0.001), Vec3(0.0, 0.0, -0.005)}) {
+        SquareHole hole;
+        for (int i = 0; i <= 4000; ++i) {
+            const Vec3 at(0.0, 0.07 - 0.045 * std::min(1.0, i / 1000.0), 0.0);
+            hole.tick({i < 700 ? at : at + aside, upright});
+        }
+        EXPECT_TRUE(hole.proxy->is_present());
+        EXPECT_NEAR(hole.proxy->pose().position.y, 0.03, 2e-5) << aside.x << ' ' << aside.z;
+    }
+}
+
 // It is there as soon as it is known to be free, however many ticks that takes.
 TEST(ToolProxy, CitizenAToolOfManySpheresAppearsInANarrowPlace) {
     for (const std::int64_t work : {6000, 12'000}) {
