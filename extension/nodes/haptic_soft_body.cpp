@@ -5,6 +5,7 @@
 #include <godot_cpp/classes/rigid_body3d.hpp>
 #include <utility>
 
+#include "core/soft/soft_model.hpp"
 #include "nodes/body_parts.hpp"
 #include "nodes/body_reading.hpp"
 #include "nodes/conversions.hpp"

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/geometry/touch_shape.hpp"
+#include "core/soft/soft_model.hpp"
 #include "core/tree/triangle_tree.hpp"
 
 namespace tactus {

@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/soft/soft_model.hpp"
+#include "core/soft/soft_design.hpp"
 #include "core/tool/tool_shape.hpp"
 #include "session/session.hpp"
 #include "session/session_commands.hpp"

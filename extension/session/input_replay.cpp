@@ -8,6 +8,7 @@
 #include "core/geometry/touch_shape.hpp"
 #include "core/math/bit_hash.hpp"
 #include "core/mesh/mesh_check.hpp"
+#include "core/soft/soft_model.hpp"
 #include "core/tree/triangle_tree.hpp"
 #include "session/request_checks.hpp"
 

@@ -5,6 +5,8 @@
 #include <unordered_set>
 #include <utility>
 
+#include "core/soft/soft_model.hpp"
+
 namespace tactus {
 
 namespace {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "core/soft/soft_model.hpp"
+
 namespace tactus {
 
 SoftPlan::Built SoftPlan::built() {

@@ -6,12 +6,15 @@
 #include <string>
 #include <vector>
 
-#include "core/soft/soft_model.hpp"
+#include "core/soft/soft_design.hpp"
 #include "session/soft_view.hpp"
 #include "world/scene_frame.hpp"
 #include "world/triangle_source.hpp"
 
 namespace tactus {
+
+struct SoftModel;
+struct SoftModelResult;
 
 struct SoftDescription {
     enum class Form { volume, sheet };

@@ -17,7 +17,7 @@ from pathlib import Path
 CLONE = Path(__file__).resolve().parents[2]
 SOURCE = "extension/core/haptics/force_law.cpp"  # one of core/, and the tests that are its own
 ITS_TESTS = "cpp.core.ForceLaw"
-HEADER = "extension/core/tree/hit.hpp"  # 56 of the 103 sources of core/ include it
+HEADER = "extension/core/math/lanes.hpp"  # 53 of the 103 sources of core/ include it
 WIDEST_HEADER = "extension/core/math/types.hpp"  # nearly every source of every layer includes it
 
 

@@ -4,6 +4,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
 
+#include "core/soft/soft_model.hpp"
 #include "core/tree/triangle_tree.hpp"
 #include "linked_places.hpp"
 #include "recorded_inputs.hpp"
