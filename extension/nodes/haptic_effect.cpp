@@ -88,26 +88,26 @@ std::optional<HandEffect> HapticEffect::closed_form() const {
     return formula_->effect(has_frame ? above->get_global_transform() : Transform3D());
 }
 
-std::optional<FieldMoment> HapticEffect::look(const HandMotion& hand, double time) {
+bool HapticEffect::begin_frame() {
     told_.tell(*this);
-    if (!enabled_ || !has_method(method_) || !problem().is_empty()) {
-        return std::nullopt;
-    }
-    const Nanoseconds begun = monotonic_now();
-    const std::optional<FieldMoment> moment =
-        measured_field(hand, [&](const HandMotion& at) { return ask(at, time); });
-    taken_ = monotonic_now() - begun;
-    if (moment && budget_.is_overdrawn(to_seconds(taken_), 1e-3 * budget_ms_)) {
+    taken_ = 0;
+    return enabled_ && has_method(method_) && problem().is_empty();
+}
+
+bool HapticEffect::end_frame() {
+    if (enabled_ && budget_.is_overdrawn(to_seconds(taken_), 1e-3 * budget_ms_)) {
         switch_off("its script took " + String::num(get_time_ms(), 1) +
                    " ms in a frame, more than its budget of " + String::num(budget_ms_, 1) +
                    " ms: it is switched off; make it shorter or raise 'budget_ms', and switch 'enabled' on");
     }
-    return enabled_ ? moment : std::nullopt;
+    return enabled_;
 }
 
 // Nothing where it is switched off by that.
 std::optional<Vec3> HapticEffect::ask(const HandMotion& hand, double time) {
+    const Nanoseconds begun = monotonic_now();
     const Variant answer = call(method_, to_godot(hand.position), to_godot(hand.velocity), time);
+    taken_ += monotonic_now() - begun;
     const bool is_vector = answer.get_type() == Variant::VECTOR3;
     const Vec3 force = is_vector ? from_godot(static_cast<Vector3>(answer)) : Vec3(0.0);
     if (!is_vector) {

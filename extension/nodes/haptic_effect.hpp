@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "core/haptics/hand_effect.hpp"
-#include "core/haptics/measured_field.hpp"
 #include "nodes/haptic_force.hpp"
 #include "nodes/node_state.hpp"
 #include "nodes/properties.hpp"
@@ -36,9 +35,12 @@ public:
     const ProxyPointer* proxy_node() const;
     godot::String problem() const;                  // empty where there is none
     std::optional<HandEffect> closed_form() const;  // nothing where it has none, or is off
-    // What the script says of that hand, at this time of the world (unit: seconds); nothing where it is off,
-    // or has been switched off by this. The script may free whatever it likes but this node.
-    std::optional<FieldMoment> look(const HandMotion& hand, double time);
+    // Once a frame: whether the script is asked in this one, the questions, and whether it may stay on. It
+    // answers with the force on that hand at this time of the world (unit: seconds), or with nothing where
+    // that switches it off. The script may free whatever it likes but this node.
+    bool begin_frame();
+    std::optional<Vec3> ask(const HandMotion& hand, double time);
+    bool end_frame();
 
 protected:
     static void _bind_methods();
@@ -46,7 +48,6 @@ protected:
 
 private:
     void enabled_changed();
-    std::optional<Vec3> ask(const HandMotion& hand, double time);
     void switch_off(const godot::String& why);
 
     godot::NodePath proxy_;

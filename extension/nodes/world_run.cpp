@@ -5,6 +5,7 @@
 #include <map>
 #include <span>
 
+#include "core/haptics/measured_field.hpp"
 #include "core/haptics/touch_values.hpp"
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_effect.hpp"
@@ -325,9 +326,10 @@ void WorldRun::show_bodies(const SessionSnapshot& snapshot) {
     }
 }
 
-// Where a script may free any of them, and the world. What several say of one hand adds up.
+// Where a script may free any of them, and the world.
 void WorldRun::ask_effects() {
     if (Roll<HapticEffect>::all().empty() || is_over()) {
+        asked_.clear();
         return;
     }
     const Busy busy(is_busy_);
@@ -337,28 +339,62 @@ void WorldRun::ask_effects() {
             ids.push_back(effect->get_instance_id());
         }
     }
-    std::map<SessionHandle, FieldMoment> fields;
-    const SessionSnapshot& snapshot = session().snapshot();
+    struct Hand {
+        HandMotion motion;
+        std::vector<std::uint64_t> effects;
+    };
+    std::map<SessionHandle, Hand> hands;
+    const double time = to_seconds(session().snapshot().time);
     for (const std::uint64_t id : ids) {
         auto* const effect = node_of_id<HapticEffect>(id);
         if (effect == nullptr || is_over()) {
             continue;
         }
         complaints_.say(*effect, effect->problem());
+        const SessionSnapshot& snapshot = session().snapshot();
         const SessionHandle proxy = hands_->handle_of(effect->proxy_node());
         const ProxyState* const state = tactus::state_of(snapshot.proxies, snapshot.proxy_count, proxy);
-        const auto moment = state != nullptr
-                                ? effect->look({state->hand, state->hand_velocity}, to_seconds(snapshot.time))
-                                : std::nullopt;
-        if (moment) {
-            add(fields[proxy], *moment);
+        if (state != nullptr && effect->begin_frame()) {
+            Hand& hand = hands[proxy];
+            hand.motion = {state->hand, state->hand_velocity};
+            hand.effects.push_back(id);
         }
     }
-    for (const auto& [proxy, moment] : fields) {
-        if (!is_over()) {
-            session().set_hand_field(proxy, moment);
+    std::map<SessionHandle, FieldMoment> before = std::exchange(asked_, {});
+    for (const auto& [proxy, hand] : hands) {
+        const auto known = before.find(proxy);
+        const FieldMoment last = known != before.end() ? known->second : FieldMoment{hand.motion.position};
+        const std::optional<FieldMoment> moment = ask_effects(hand.effects, hand.motion, time, last);
+        if (moment && !is_over()) {
+            asked_[proxy] = *moment;
+            session().set_hand_field(proxy, *moment);
         }
     }
+}
+
+// What several say of one hand adds up; nothing if one of them is switched off by that, or the world stops.
+std::optional<FieldMoment> WorldRun::ask_effects(const std::vector<std::uint64_t>& effects,
+                                                 const HandMotion& hand, double time,
+                                                 const FieldMoment& before) {
+    const auto sum = [&](const HandMotion& at) -> std::optional<Vec3> {
+        Vec3 force(0.0);
+        for (const std::uint64_t id : effects) {
+            auto* const effect = node_of_id<HapticEffect>(id);
+            const auto answer = effect != nullptr && !is_over() ? effect->ask(at, time) : std::nullopt;
+            if (!answer) {
+                return std::nullopt;
+            }
+            force += *answer;
+        }
+        return force;
+    };
+    const std::optional<FieldMoment> moment = measured_field(hand, before, sum);
+    bool are_on = true;
+    for (const std::uint64_t id : effects) {
+        auto* const effect = node_of_id<HapticEffect>(id);
+        are_on = effect != nullptr && effect->end_frame() && are_on;
+    }
+    return are_on ? moment : std::nullopt;
 }
 
 // Devices and hands have the time of the clock.

@@ -4,9 +4,12 @@
 #pragma once
 
 #include <godot_cpp/classes/node3d.hpp>
+#include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "core/haptics/hand_field.hpp"
 #include "nodes/hand_mirrors.hpp"
 #include "nodes/messages.hpp"
 #include "nodes/model_view.hpp"
@@ -95,6 +98,8 @@ private:
     void start_model(const MMTLink& link);
     void synchronise_links();
     void show_bodies(const SessionSnapshot& snapshot);
+    std::optional<FieldMoment> ask_effects(const std::vector<std::uint64_t>& effects, const HandMotion& hand,
+                                           double time, const FieldMoment& before);
 
     HapticWorld& world_;
     std::vector<std::uint64_t> link_nodes_;  // ids of the MMTLinks of its links; 0: it has left
@@ -107,6 +112,8 @@ private:
     const bool engine_moves_;        // see RunSettings
     bool is_fresh_ = false;          // the snapshot is shown in the next frame
     std::vector<Vec3> hand_places_;  // of this frame; keeps its memory
+
+    std::map<SessionHandle, FieldMoment> asked_;  // what effects have answered in this frame
 
     Complaints complaints_;
     SceneBodies bodies_;

@@ -1,4 +1,5 @@
 // What the owner of a session asks of its devices, proxies and tools.
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <memory>
 #include <string>
@@ -9,6 +10,27 @@
 #include "session/session_impl.hpp"
 
 namespace tactus {
+
+namespace {
+
+// Forces no longer than `strongest` (unit: newtons), at places within a meter that ascend.
+bool is_line(const FieldLine& line, double strongest) {
+    if (line.count == 0) {
+        return line.direction == Vec3(0.0);
+    }
+    const bool fits = line.count >= 2 && line.count <= FieldLine::most && line.near >= 0.0 &&
+                      line.near <= 1.0 && std::abs(glm::length(line.direction) - 1.0) < 1e-6;
+    for (int i = 0; fits && i < line.count; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        const bool ascends = k == 0 || line.at[k] > line.at[k - 1];
+        if (!ascends || !(std::abs(line.at[k]) <= 1.0) || !(glm::length(line.force[k]) <= strongest)) {
+            return false;
+        }
+    }
+    return fits;
+}
+
+}  // namespace
 
 AddResult Session::add_device(Device& device, const Workspace& workspace) {
     if (std::string error = check_workspace(workspace); !error.empty()) {
@@ -67,7 +89,7 @@ void Session::set_hand_field(SessionHandle proxy, const FieldMoment& moment) {
     };
     if (impl_->proxies.in_use(proxy) && limits::is_place(moment.place) &&
         is_within(moment.velocity, limits::fastest) && is_within(moment.force, strongest) &&
-        is_slope(moment.by_place) && is_slope(moment.by_velocity)) {
+        is_slope(moment.by_place) && is_slope(moment.by_velocity) && is_line(moment.line, strongest)) {
         impl_->send(command::SetField{proxy, moment});
     }
 }

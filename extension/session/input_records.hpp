@@ -250,7 +250,9 @@ inline constexpr int members<HandEffects> = 2;
 template <>
 inline constexpr int members<ProxyDescription> = 7;
 template <>
-inline constexpr int members<FieldMoment> = 5;
+inline constexpr int members<FieldLine> = 5;
+template <>
+inline constexpr int members<FieldMoment> = 6;
 template <>
 inline constexpr int members<ToolSettings> = 8;
 template <>

@@ -259,7 +259,7 @@ SessionLoop::Field SessionLoop::field(ProxySlot& slot, const LoopLag& lag, doubl
     const HandEffects& effects = slot.description.effects;
     const DeviceSlot& device = devices_[slot.description.device];
     const HandMotion motion{slot.hand, slot.hand_velocity};
-    const Wall computed = slot.field.begin_tick(now);
+    const Wall computed = slot.field.begin_tick(now, force_limit(slot.description.device));
     Wall wanted = computed;
     for (std::size_t i = 0; i < effects.count; ++i) {
         const Wall steep = steepest(effects.items[i]);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/haptics/measured_field.hpp"
 #include "recorded_inputs.hpp"
 #include "session_rig.hpp"
 #include "support/realtime_audit.hpp"
@@ -84,6 +85,26 @@ TEST(SessionField, NonsenseIsNotTaken) {
     refused([](FieldMoment& m) { m.by_place = Mat3(nan); });
     refused([](FieldMoment& m) { m.by_place = Mat3(1e300); });
     refused([](FieldMoment& m) { m.by_velocity = Mat3(nan); });
+    const auto refused_line = [&](auto&& spoil) {
+        refused([&](FieldMoment& m) {
+            m.line.direction = {0.0, 1.0, 0.0};
+            m.line.near = 0.01;
+            m.line.add(-0.01, m.force);
+            m.line.add(0.01, m.force);
+            spoil(m.line);
+        });
+    };
+    refused_line([](FieldLine& line) { line.at[0] = nan; });
+    refused_line([](FieldLine& line) { line.at[0] = line.at[1]; });
+    refused_line([](FieldLine& line) { line.at[1] = 1e9; });
+    refused_line([](FieldLine& line) { line.force[1].z = nan; });
+    refused_line([](FieldLine& line) { line.direction *= 2.0; });
+    refused_line([](FieldLine& line) { line.direction = Vec3(nan); });
+    refused_line([](FieldLine& line) { line.near = -0.1; });
+    refused_line([](FieldLine& line) { line.count = 1; });
+    refused_line([](FieldLine& line) { line.count = -3; });
+    refused_line([](FieldLine& line) { line.count = FieldLine::most + 1; });
+    refused_line([](FieldLine& line) { line = {}, line.direction = {1.0, 0.0, 0.0}; });
     rig.session.set_hand_field(99, even({1.0, 0.0, 0.0}));
     rig.ticks(60);
     EXPECT_EQ(rig.device.force, Vec3(0.0));
@@ -94,10 +115,16 @@ TEST(SessionField, IsPlayedAgainToTheSameBitsAndAllocatesNothing) {
     SessionRig rig({}, &inputs.recorder);
     rig.add(ground());
     rig.session.settle();
+    FieldMoment told;
+    const auto teeth = [](const HandMotion& hand) {
+        const double at = 200.0 * hand.position.x;
+        return std::optional(Vec3(3.0 * (at - std::floor(at)), -150.0 * hand.position.y, 0.0));
+    };
     for (int i = 0; i < 1000; ++i) {
         rig.device.position = {0.02 * std::sin(0.01 * i), 0.02 + 0.015 * std::sin(0.02 * i), 0.0};
         if (i % 16 == 0) {
-            rig.session.set_hand_field(rig.proxy, spring(150.0, rig.device.position));
+            told = *measured_field({rig.device.position, Vec3(0.0)}, told, teeth);
+            rig.session.set_hand_field(rig.proxy, told);
         }
         testing::AuditScope audit;
         rig.tick();

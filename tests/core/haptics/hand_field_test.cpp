@@ -155,6 +155,8 @@ LedArm lead_arm(const Force& force, double from, double to, double damping, cons
     HandField field;
     double x = from, v = 0.0, given = 0.0, work = 0.0, least = 1e9, most = -1e9;
     double next_frame = 0.0;
+    FieldMoment told;
+    told.place.x = from;
     for (int i = 0; i < 4000; ++i) {
         const double gone = std::min(1.0, i * seconds);
         const double meant = from + (to - from) * gone, pace = gone < 1.0 ? to - from : 0.0;
@@ -170,7 +172,8 @@ LedArm lead_arm(const Force& force, double from, double to, double damping, cons
             const auto answer = [&](const HandMotion& at) {
                 return std::optional(Vec3(force(at.position.x), 0.0, 0.0));
             };
-            field.set(*measured_field({Vec3(x, 0.0, 0.0), Vec3(v, 0.0, 0.0)}, answer));
+            told = *measured_field({Vec3(x, 0.0, 0.0), Vec3(v, 0.0, 0.0)}, told, answer);
+            field.set(told);
         }
         const Wall wanted = field.begin_tick(i * tick);
         const Vec3 now =
@@ -215,6 +218,62 @@ TEST(HandField, DetentsMakeNoEnergy) {
             const LedArm led = lead_arm(detents, 0.03, -0.02, damping, {1500.0, 1e9});
             EXPECT_LE(led.shake, 3e-3) << length << " m, " << damping;
             EXPECT_LE(led.made, 0.01) << length << " m, " << damping;
+        }
+    }
+}
+
+// A hand that slides along a wall of 5 N, and presses it with a spring of 150 N/m from 20 mm behind it. It
+// touches it along z; its way goes along x.
+TEST(HandField, AWallThatAScriptMakesIsSlidAlongWithoutABuzz) {
+    constexpr double mass = 0.5, damping = 8.0, stiffness = 150.0, seconds = 1e-3;
+    const auto wall = [](const HandMotion& at) {
+        return std::optional(Vec3(0.0, 0.0, at.position.z <= 0.0 ? 5.0 : 0.0));
+    };
+    HandField field;
+    FieldMoment told;
+    HandMotion hand{{0.0, 0.0, 0.01}, Vec3(0.0)};
+    told.place = hand.position;
+    Vec3 given(0.0);
+    double made = 0.0, least = 1e9, most = -1e9;
+    for (int i = 0; i < 3000; ++i) {
+        const Vec3 meant{0.1 * seconds * i, 0.0, std::max(-0.02, 0.01 - 0.03 * seconds * i)};
+        const Vec3 pull =
+            stiffness * (meant - hand.position) - damping * (hand.velocity - Vec3(0.1, 0.0, 0.0));
+        hand.velocity += (pull + given) * (seconds / mass);
+        const Vec3 way = hand.velocity * seconds;
+        made += glm::dot(given - *wall({hand.position + 0.5 * way, {}}), way);
+        hand.position += way;
+        if (i % 16 == 0) {
+            told = *measured_field(hand, told, wall);
+            field.set(told);
+        }
+        given = felt(field, hand, i * tick, {1500.0, 1e9});
+        if (i > 1500) {
+            least = std::min(least, hand.position.z);
+            most = std::max(most, hand.position.z);
+        }
+    }
+    EXPECT_LE(most - least, 1e-3);
+    EXPECT_NEAR(0.5 * (least + most), 0.0, 3e-3);
+    EXPECT_LE(made, 0.01);
+}
+
+// What is counted is the force that was held times the way that it acted on: a hand that is put elsewhere has
+// not been moved by it.
+TEST(HandField, AHandThatIsPutElsewhereOwesNothing) {
+    HandField field;
+    FieldMoment moment = even({5.0, 0.0, 0.0});
+    for (int i = 0; i < 300; ++i) {
+        const Vec3 place{i < 200 ? 0.0 : 0.5, 0.0, 0.0};
+        if (i % 16 == 0) {
+            moment.place = place;
+            moment.by_place = Mat3(i < 200 ? -100.0 : 0.0);
+            field.set(moment);
+        }
+        const Vec3 now = felt(field, {place, {0.1, 0.0, 0.0}}, i * tick);
+        if (i > 240) {
+            EXPECT_FALSE(field.is_limited()) << i;
+            EXPECT_NEAR(now.x, 5.0, 1e-9) << i;
         }
     }
 }
