@@ -7,9 +7,8 @@ import re
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
-from setup import cache
-
 FILE = "columns.json"
+CLASS_REFERENCE = Path(__file__).resolve().parents[2] / "extension/doc_classes"  # of these sources, wherever the results go
 
 # A whole name, or its beginning and its end: with the unit.
 _MEANINGS = (
@@ -84,7 +83,7 @@ def _statistics() -> dict[str, str]:
     """What get_statistics() of a world or a link has, in the words of the class reference."""
     found: dict[str, str] = {}
     for name in ("MMTLink", "HapticWorld"):
-        reference = ElementTree.parse(cache.clone() / f"extension/doc_classes/{name}.xml")
+        reference = ElementTree.parse(CLASS_REFERENCE / f"{name}.xml")
         found |= {one.attrib["key"]: " ".join("".join(one.itertext()).split()) for one in reference.iter("statistic")}
     return found
 
