@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 
 from measuring import outputs
+from measuring.options import Refused
 from setup import cache
 
 # An experiment in little: writes a table row by row, as slowly as is said, and keeps it.
@@ -69,6 +70,16 @@ def test_a_full_disk_ends_the_run_with_its_reason_and_loses_nothing(tmp_path):
     assert code == 1 and "longer than this user may write" in said and "Not whole" in said
     assert rows_of(tmp_path / "build/experiments/little") == 3
     assert not (tmp_path / "build/experiments/little.partial/summary.json").exists()
+
+
+def test_a_refused_run_leaves_nothing_beside_the_results(tmp_path):
+    """Where only the program that plays it can refuse it, the folder is there already."""
+    with outputs.output(tmp_path, "little") as output:
+        output.keep()
+    with pytest.raises(Refused), outputs.output(tmp_path, "little") as output:
+        (output.folder / "scene.txt").write_text("half")
+        raise Refused("no such key")
+    assert sorted(path.name for path in tmp_path.iterdir()) == [".locks", "little"]
 
 
 def test_a_folder_that_may_not_be_written_is_said(tmp_path):
@@ -130,8 +141,8 @@ from pathlib import Path
 from measuring import outputs
 place, rows = Path(sys.argv[1]), int(sys.argv[2])
 with outputs.output(place, "little") as output:
-    signal.setitimer(signal.ITIMER_REAL, float(sys.argv[3]))
     signal.signal(signal.SIGALRM, lambda *_: os.kill(os.getpid(), signal.SIGKILL))
+    signal.setitimer(signal.ITIMER_REAL, float(sys.argv[3]))
     with (output.folder / "rows.csv").open("w") as file:
         for row in range(rows):
             file.write(f"{row}\\n")

@@ -1,7 +1,8 @@
 """The folder of results of a run: what was there before stays until what is new is whole.
 
 A run writes into NAME.partial, which becomes NAME when all of it is there. A run that fails or is killed leaves its
-NAME.partial, and NAME as it was. Each run locks its NAME; one that finds it locked is called NAME_2, NAME_3, …
+NAME.partial, and NAME as it was; one that is refused leaves nothing. Each run locks its NAME; one that finds it locked
+is called NAME_2, NAME_3, …
 """
 
 import fcntl
@@ -11,6 +12,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from itertools import count
 from pathlib import Path
+
+from measuring.options import Refused
 
 
 class Output:
@@ -54,7 +57,11 @@ def output(place: Path, name: str) -> Iterator[Output]:
                     print(f"{name} is being played already: this run is called {called}", flush=True)
                 found = Output(place, called)
                 found.begin()
-                yield found
+                try:
+                    yield found
+                except Refused:
+                    shutil.rmtree(found.folder, ignore_errors=True)
+                    raise
                 return
     except PermissionError as error:
         raise RuntimeError(f"{error.filename or place} may not be written to: results go to {place}") from None
