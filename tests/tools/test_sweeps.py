@@ -151,6 +151,29 @@ def test_a_killed_sweep_leaves_nothing_half_and_goes_on(hundred, tmp_path, monke
     assert (folder / "sweep.csv").read_text() == expected
 
 
+@pytest.mark.parametrize("seconds", [0.5, 1.0, 1.5, 2.0])
+def test_an_interrupt_while_the_workers_start_ends_them_without_a_trace(seconds, tmp_path):
+    """As a terminal sends it: to the program and to all that it has started."""
+    given, script = tmp_path / "sweep.json", tmp_path / "play.py"
+    given.write_text(json.dumps(DESCRIPTION))
+    script.write_text(
+        "import sys; from pathlib import Path; from sweeps import command, description; import entry, experiment\n"
+        "if __name__ == '__main__':\n"
+        "    sweep = description.read(Path(sys.argv[1]), experiment.names())\n"
+        "    entry.leave(lambda _: command.play(sweep, Path(sys.argv[2]), command.Settings(workers=2)))\n"
+    )
+    environment = os.environ | {"PYTHONPATH": str(cache.clone() / "tools")}
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
+    running = subprocess.Popen([sys.executable, script, given, tmp_path / "out"], env=environment, start_new_session=True, **pipes)
+    assert "0 of them done before" in running.stdout.readline()
+    time.sleep(seconds)
+    os.killpg(running.pid, signal.SIGINT)
+    # A pipe ends when the last process that has it does: nothing is left running.
+    _, said = running.communicate(timeout=120)
+    assert running.returncode == 128 + signal.SIGINT
+    assert re.fullmatch(r"(.*\r)?\s*\d+ of 100 runs are kept: the same command goes on from there\n", said), said
+
+
 def test_what_is_done_is_kept_when_a_level_is_added(six, running, tmp_path, monkeypatch):
     sweep, expected = six
     assert command.play(sweep, tmp_path / "out", running) == 0

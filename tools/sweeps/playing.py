@@ -9,8 +9,11 @@ import importlib
 import io
 import logging
 import os
+import signal
 import tempfile
 from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from multiprocessing import resource_tracker
 from pathlib import Path
 
 from sweeps import sources
@@ -75,15 +78,10 @@ def _in_words(error: BaseException) -> str:
 
 @contextlib.contextmanager
 def _client(cluster: str, workers: int) -> Iterator:
-    from distributed import Client, LocalCluster
+    from distributed import Client
 
     if not cluster:
-        count = workers or os.cpu_count() or 1
-        # A worker that dies is restarted without a word: its run goes to another one.
-        with (
-            LocalCluster(n_workers=count, threads_per_worker=1, dashboard_address=None, silence_logs=logging.CRITICAL) as local,
-            Client(local) as client,
-        ):
+        with _processes(workers or os.cpu_count() or 1) as local, Client(local) as client:
             yield client
         return
     try:
@@ -96,6 +94,25 @@ def _client(cluster: str, workers: int) -> Iterator:
         except asyncio.TimeoutError:
             raise RuntimeError(f"no worker has joined {cluster}: docs/experiments.md says how one does") from None
         yield client
+
+
+@contextlib.contextmanager
+def _processes(count: int) -> Iterator:
+    """Workers on this machine. One that dies is restarted without a word: its run goes to another one."""
+    from distributed import LocalCluster
+
+    # A cluster that is half there cannot be closed, so an interrupt waits for the rest of it, in another thread. The threads
+    # and processes that this one starts inherit its signal mask: a terminal's interrupt reaches this program alone.
+    resource_tracker.ensure_running()  # it unblocks the interrupt in the thread that starts it
+    with ThreadPoolExecutor(1, initializer=signal.pthread_sigmask, initargs=(signal.SIG_BLOCK, {signal.SIGINT})) as starter:
+        starting = starter.submit(LocalCluster, n_workers=count, threads_per_worker=1, dashboard_address=None, silence_logs=logging.CRITICAL)
+        try:
+            local = starting.result()
+        except KeyboardInterrupt:
+            starting.result().close()
+            raise
+    with local:
+        yield local
 
 
 def _refuse_other_sources(client) -> None:
