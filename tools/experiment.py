@@ -24,6 +24,9 @@ from setup import cache
 from sweeps import command as sweep
 from sweeps import description, sources
 
+# Significant ones of a figure: another program that computes it from the same rows finds them all.
+DIGITS = 12
+
 
 def names() -> list[str]:
     return sorted(path.stem for path in (cache.clone() / "tools/experiments").glob("[!_]*.py"))
@@ -54,7 +57,7 @@ def _carry_out(name: str, run: Callable[[Path], dict[str, object]]) -> int:
     place = cache.clone() / "build/experiments"
     with outputs.output(place, name) as output:
         try:
-            summary = {**citation(), **{key: _sound(value) for key, value in run(output.folder).items()}}
+            summary = {**citation(), **{key: printed(value) for key, value in run(output.folder).items()}}
             (output.folder / "summary.json").write_text(json.dumps(summary, indent=2, allow_nan=False) + "\n")
             columns.write(output.folder)
             (output.folder / "report.html").write_text(report.page_of(name, summary, output.folder))
@@ -79,9 +82,11 @@ def citation() -> dict[str, str]:
     }
 
 
-def _sound(value: object) -> object:
-    """JSON has no word for what is no number."""
-    return None if isinstance(value, float) and not math.isfinite(value) else value
+def printed(value: object) -> object:
+    """As it stands in a summary: JSON has no word for what is no number, and the order of a sum decides the last digits."""
+    if not isinstance(value, float):
+        return value
+    return float(f"{value:.{DIGITS}g}") if math.isfinite(value) else None
 
 
 def _leaves_virtual_time(experiment: ModuleType, given: dict[str, str]) -> bool:

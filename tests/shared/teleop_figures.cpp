@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <string_view>
 #include <utility>
 
 namespace tactus::shared {
@@ -47,16 +48,26 @@ double percentile(std::vector<double> values, double share) {
 
 }  // namespace
 
-bool write_rows(const std::string& path, const std::vector<TeleopRow>& rows) {
+bool write_rows(const std::string& path, const std::vector<std::string>& bodies,
+                const std::vector<TeleopRow>& rows) {
     std::ofstream file(path);
     file << "time_us,hand_x,hand_y,hand_z,force_x,force_y,force_z,direct_x,direct_y,direct_z,far_x,far_y,"
             "far_z,model_x,model_y,model_z,truth_x,truth_y,truth_z,box_error_m,offset_m,jnd_share,depth_m,"
             "local_depth_m,felt_excess_1ms_N,felt_excess_100ms_N,felt_excess_100ms_jnd,let_go,"
-            "far_hand_error_m,box_rotation_error_rad,touches,direct_touches\n";
+            "far_hand_error_m,box_rotation_error_rad,touches,direct_touches,there_hand_x,there_hand_y,"
+            "there_hand_z,there_force_x,there_force_y,there_force_z,correction_force_step_N,velocity_x,"
+            "velocity_y,velocity_z,local_hand_x,local_hand_y,local_hand_z,local_velocity_x,local_velocity_y,"
+            "local_velocity_z,local_force_x,local_force_y,local_force_z,round_trip_s,packets_forth,"
+            "packets_back,bytes_forth,bytes_back,corrections,replays,states_beyond_history,samples_held,"
+            "samples_filled";
+    for (const std::string& body : bodies) {
+        file << ",direct_touches_" << body;
+    }
+    file << "\n";
     const auto number = [&file](double value) {
-        char text[32];
-        std::snprintf(text, sizeof text, ",%.9g", value);
-        file << text;
+        std::array<char, 32> text{};
+        const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+        file << ',' << std::string_view(text.data(), end);
     };
     const auto put = [&number](const Vec3& v) {
         number(v.x);
@@ -81,7 +92,24 @@ bool write_rows(const std::string& path, const std::vector<TeleopRow>& rows) {
         file << ',' << row.let_go;
         number(row.far_known ? row.hand_error : unknown);
         number(row.far_known ? row.turn_error : unknown);
-        file << ',' << row.touches << ',' << row.direct_touches << '\n';
+        file << ',' << row.touches << ',' << row.direct_touches;
+        put(row.there_hand);
+        put(row.there_force);
+        number(row.force_step);
+        for (const Vec3& of_arm : {row.velocity, row.local_hand, row.local_velocity, row.local_force}) {
+            put(of_arm);
+        }
+        const LinkCounts& link = row.link;
+        number(link.round_trip);
+        for (const std::uint64_t count :
+             {link.packets_forth, link.packets_back, link.bytes_forth, link.bytes_back, link.corrections,
+              link.replays, link.states_beyond_history, link.samples_held, link.samples_filled}) {
+            file << ',' << count;
+        }
+        for (const bool touched : row.direct_bodies) {
+            file << ',' << touched;
+        }
+        file << '\n';
     }
     file.close();
     return !file.fail();
@@ -235,7 +263,8 @@ void assume_known(std::vector<TeleopRow>& rows, double delay) {
 
 // What is felt of the model's being put right: from the first correction on, and of nothing before it.
 void evaluate_once_told(const std::vector<TeleopRow>& rows, TeleopFigures& figures) {
-    const auto first = std::ranges::find_if(rows, [](const TeleopRow& row) { return row.told; });
+    const auto first =
+        std::ranges::find_if(rows, [](const TeleopRow& row) { return row.link.corrections > 0; });
     const auto told = static_cast<std::size_t>(first - rows.begin());
     double newtons = 0.0, jnd = 0.0;
     for (std::size_t i = std::max<std::size_t>(told, 1); i < rows.size(); ++i) {
@@ -278,10 +307,59 @@ void evaluate_excess(const std::vector<TeleopRow>& rows, const TeleopCase& exper
     tell(changes_jnd, "felt_excess_100ms", "jnd");
 }
 
+// Of the whole run. A force is held until the next tick.
+void evaluate_energy(const std::vector<TeleopRow>& rows, TeleopFigures& figures) {
+    PortEnergy hand, far;
+    // The most that the hand, and that both together, have been given on balance since the start.
+    double hand_most = 0.0, link_created = 0.0;
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+        const TeleopRow &before = rows[i - 1], &row = rows[i];
+        hand.add(before.force, row.hand - before.hand);
+        far.add(-before.there_force, row.there_hand - before.there_hand);
+        hand_most = std::max(hand_most, hand.total());
+        link_created = std::max(link_created, hand.total() + far.total());
+    }
+    figures["energy_at_hand_J"] = hand.total();
+    figures["energy_at_far_side_J"] = far.total();
+    figures["energy_at_hand_most_J"] = hand_most;
+    figures["energy_created_J"] = hand.created();
+    figures["link_energy_created_J"] = link_created;
+}
+
+// `seconds`: of the run, by which what is counted becomes a rate.
+void evaluate_link(const LinkCounts& link, double seconds, TeleopFigures& figures) {
+    const auto per_second = [&](std::uint64_t count) { return static_cast<double>(count) / seconds; };
+    // With all that UDP and IPv4 add.
+    constexpr std::uint64_t headers = 28;
+    figures["packets_forth_per_s"] = per_second(link.packets_forth);
+    figures["packets_back_per_s"] = per_second(link.packets_back);
+    figures["packets_per_s"] = per_second(link.packets_forth + link.packets_back);
+    figures["bytes_per_s"] = per_second(link.bytes_forth + link.bytes_back);
+    figures["bits_forth_per_s"] = 8.0 * per_second(link.bytes_forth + link.packets_forth * headers);
+    figures["bits_back_per_s"] = 8.0 * per_second(link.bytes_back + link.packets_back * headers);
+    figures["bits_per_s"] = figures["bits_forth_per_s"] + figures["bits_back_per_s"];
+    figures["corrections"] = static_cast<double>(link.corrections);
+    figures["replays"] = static_cast<double>(link.replays);
+    figures["states_beyond_history"] = static_cast<double>(link.states_beyond_history);
+    figures["samples_held"] = static_cast<double>(link.samples_held);
+    figures["samples_filled"] = static_cast<double>(link.samples_filled);
+    figures["round_trip_ms"] = 1e3 * link.round_trip;
+}
+
+void evaluate_contact(const std::vector<TeleopRow>& rows, const std::vector<std::string>& bodies,
+                      TeleopFigures& figures) {
+    for (std::size_t body = 0; body < bodies.size(); ++body) {
+        const auto ticks =
+            std::ranges::count_if(rows, [body](const TeleopRow& row) { return row.direct_bodies[body]; });
+        figures[bodies[body] + "_contact_share"] =
+            static_cast<double>(ticks) / static_cast<double>(rows.size());
+    }
+}
+
 }  // namespace
 
-TeleopFigures evaluate(std::vector<TeleopRow>& rows, const TeleopCase& experiment, const TeleopPorts& ports,
-                       TeleopBins* bins) {
+TeleopFigures evaluate(std::vector<TeleopRow>& rows, const TeleopCase& experiment,
+                       const std::vector<std::string>& bodies, TeleopBins* bins) {
     TeleopFigures figures;
     Series shifted, turn, jitter, hand;
     Spread error, box;
@@ -292,6 +370,9 @@ TeleopFigures evaluate(std::vector<TeleopRow>& rows, const TeleopCase& experimen
             ? static_cast<std::size_t>((experiment.forth.delay + experiment.back.delay) / period + 1)
             : 0;
     double last_wrong = 0.0, first_touch = -1.0;
+    // What is assumed below changes the force alone, and no energy.
+    evaluate_energy(rows, figures);
+    evaluate_contact(rows, bodies, figures);
     find_excess(rows);
     if (experiment.known_after) {
         assume_known(rows, *experiment.known_after);
@@ -326,13 +407,16 @@ TeleopFigures evaluate(std::vector<TeleopRow>& rows, const TeleopCase& experimen
     figures["force_jitter_rms_N"] = jitter.rms();
     figures["correction_cost_jnd_p99"] = percentile(shares, 0.99);
     figures["seconds_until_right"] = first_touch < 0.0 ? 0.0 : std::max(0.0, last_wrong - first_touch);
-    figures["energy_at_hand_J"] = ports.hand.total();
-    figures["energy_at_far_side_J"] = ports.far.total();
-    figures["energy_at_hand_most_J"] = ports.hand_most;
-    figures["energy_created_J"] = ports.hand.created();
-    figures["link_energy_created_J"] = ports.link_created;
     evaluate_excess(rows, experiment, figures, bins);
     evaluate_once_told(rows, figures);
+    if (!rows.empty()) {
+        evaluate_link(rows.back().link, experiment.seconds, figures);
+    }
+    double largest_step = 0.0;
+    for (const TeleopRow& row : rows) {
+        largest_step = std::max(largest_step, row.force_step);
+    }
+    figures["correction_force_step_max_N"] = largest_step;
     figures["let_go_ticks"] =
         static_cast<double>(std::ranges::count_if(rows, [](const TeleopRow& row) { return row.let_go; }));
     if (experiment.uses_arm) {

@@ -11,6 +11,14 @@
 
 namespace tactus::shared {
 
+// Of the link, since the start.
+struct LinkCounts {
+    std::uint64_t packets_forth = 0, packets_back = 0, bytes_forth = 0, bytes_back = 0;
+    std::uint64_t corrections = 0;  // ticks in which the model has been corrected
+    std::uint64_t replays = 0, states_beyond_history = 0, samples_held = 0, samples_filled = 0;
+    double round_trip = 0.0;  // as it is now (unit: seconds)
+};
+
 // One tick of the operator and what answered it, by sample.
 struct TeleopRow {
     Nanoseconds time = 0;
@@ -18,15 +26,18 @@ struct TeleopRow {
     Vec3 force{0.0}, direct{0.0}, far{0.0};  // on the hand, of direct touch, at the far hand (unit: newtons)
     Pose model, truth;                       // of the object that is followed
     double box_error = 0.0,
-           turn_error = 0.0;               // of the dynamic body that is off most (units: meters, radians)
-    double hand_error = 0.0;               // of the far hand, after this sample (unit: meters)
-    bool far_known = false;                // the far side has answered this sample
-    bool touches = false;                  // the operator's pointer, the object
-    bool direct_touches = false;           // anything
-    bool let_go = false;                   // the pointer has let go and says so
-    bool told = false;                     // the model has been corrected, in this tick or before
-    double jnd_share = 0.0, offset = 0.0;  // see TeleopStatistics
-    double depth = 0.0;                    // of the far hand below the surface there, after this sample
+           turn_error = 0.0;                 // of the dynamic body that is off most (units: meters, radians)
+    double hand_error = 0.0;                 // of the far hand, after this sample (unit: meters)
+    Vec3 there_hand{0.0}, there_force{0.0};  // of the far hand in this tick (units: meters, newtons)
+    bool far_known = false;                  // the far side has answered this sample
+    bool touches = false;                    // the operator's pointer, the object
+    bool direct_touches = false;             // anything
+    std::vector<bool> direct_bodies;         // which of the scene's, in its order
+    bool let_go = false;                     // the pointer has let go and says so
+    double jnd_share = 0.0, offset = 0.0;    // see TeleopStatistics
+    double force_step = 0.0;                 // see CorrectionCost
+    LinkCounts link;
+    double depth = 0.0;                         // of the far hand below the surface there, after this sample
     Vec3 local_hand{0.0}, local_velocity{0.0};  // an arm of its own that touches without a link
     Vec3 local_force{0.0};
     double local_depth = 0.0;
@@ -40,18 +51,12 @@ using TeleopFigures = std::map<std::string, double>;
 using TeleopBins = std::map<std::string, std::map<int, std::uint64_t>>;
 inline constexpr int no_bin = -400, last_bin = 600;
 
-// `ports`: the hand's and the far side's, of the whole run.
-struct TeleopPorts {
-    PortEnergy hand, far;
-    // The most that the hand, and that both together, have been given on balance at any moment since the
-    // start (unit: joules).
-    double hand_most = 0.0, link_created = 0.0;
-};
+// `bodies`: names of TeleopRow::direct_bodies.
+TeleopFigures evaluate(std::vector<TeleopRow>& rows, const TeleopCase& experiment,
+                       const std::vector<std::string>& bodies, TeleopBins* bins);
 
-TeleopFigures evaluate(std::vector<TeleopRow>& rows, const TeleopCase& experiment, const TeleopPorts& ports,
-                       TeleopBins* bins);
-
-// False where not all of them are in the file.
-bool write_rows(const std::string& path, const std::vector<TeleopRow>& rows);
+// Every number so that it is read back bit-exact. False where not all of them are in the file.
+bool write_rows(const std::string& path, const std::vector<std::string>& bodies,
+                const std::vector<TeleopRow>& rows);
 
 }  // namespace tactus::shared

@@ -58,8 +58,8 @@ private:
     void tick_far_side(Nanoseconds now);
     void note_model(std::size_t tick);
     void note_answer();
-    void note_energy(std::size_t tick);
     std::optional<Pose> modelled(std::size_t moving) const;
+    LinkCounts counts() const;
     TeleopFigures figures(TeleopBins* bins);
 
     const TeleopScene& scene_;
@@ -79,10 +79,6 @@ private:
     std::vector<std::string> told_;  // bodies that are described as they are
     std::vector<TeleopRow> rows_;
     std::vector<std::optional<Pose>> believed_;  // by tick and moving body
-    TeleopPorts ports_;
-    Vec3 far_hand_{0.0}, far_force_{0.0};
-    std::vector<std::uint64_t> contact_ticks_;  // of direct touch, by body of the scene
-    double largest_step_ = 0.0;
     std::uint64_t answered_ = 0;
     Nanoseconds away_until_ = 0;  // the far side starts anew then; 0: it does not
 };
@@ -102,8 +98,7 @@ TeleopRun::TeleopRun(const TeleopScene& scene, const TeleopCase& experiment)
       builder_(model_.session, operator_port_),
       teller_(far_port_),
       settings_(experiment.settings),
-      rows_(static_cast<std::size_t>(experiment.seconds / tick_seconds)),
-      contact_ticks_(scene.bodies.size(), 0) {
+      rows_(static_cast<std::size_t>(experiment.seconds / tick_seconds)) {
     const bool corrects_later =
         experiment.correct_from_touch ||
         std::ranges::count(experiment.events, TeleopEvent::Kind::correct, &TeleopEvent::kind) > 0;
@@ -288,15 +283,32 @@ void TeleopRun::note_model(std::size_t tick) {
     }
     row.touches = model_.touches(model_.object);
     row.direct_touches = direct_.pointer().contact_count > 0;
-    for (std::size_t body = 0; body < contact_ticks_.size(); ++body) {
-        contact_ticks_[body] += direct_.touches(direct_.handles[body]) ? 1 : 0;
+    for (const SessionHandle body : direct_.handles) {
+        row.direct_bodies.push_back(direct_.touches(body));
     }
     const TeleopStatistics& statistics = operator_port_->statistics.front();
     row.let_go = (model_.pointer().status & felt_letting_go) != 0;
-    row.told = statistics.corrections > 0;
     row.jnd_share = statistics.cost.jnd_share;
+    row.force_step = statistics.cost.force_step;
     row.offset = statistics.offset;
-    largest_step_ = std::max(largest_step_, statistics.cost.force_step);
+    row.there_hand = truth_.pointer().hand;
+    row.there_force = truth_.device.force;
+    row.link = counts();
+}
+
+LinkCounts TeleopRun::counts() const {
+    const TeleopStatistics& ours = operator_port_->statistics.front();
+    const TeleopStatistics& theirs = far_port_->statistics.front();
+    return {.packets_forth = ours.link.packets_sent,
+            .packets_back = theirs.link.packets_sent,
+            .bytes_forth = ours.link.bytes_sent,
+            .bytes_back = theirs.link.bytes_sent,
+            .corrections = ours.corrections,
+            .replays = ours.replays,
+            .states_beyond_history = ours.beyond_history,
+            .samples_held = theirs.buffer.held,
+            .samples_filled = theirs.buffer.filled,
+            .round_trip = ours.round_trip};
 }
 
 // The far side has applied a sample: what became of it belongs to that sample's row.
@@ -324,18 +336,6 @@ void TeleopRun::note_answer() {
             answered.turn_error = std::max(answered.turn_error, rotation_error(*ours, theirs));
         }
     }
-}
-
-void TeleopRun::note_energy(std::size_t tick) {
-    if (tick > 0) {
-        ports_.hand.add(rows_[tick - 1].force, rows_[tick].hand - rows_[tick - 1].hand);
-    }
-    const ProxyState& there = truth_.pointer();
-    ports_.far.add(-far_force_, there.hand - far_hand_);
-    ports_.hand_most = std::max(ports_.hand_most, ports_.hand.total());
-    ports_.link_created = std::max(ports_.link_created, ports_.hand.total() + ports_.far.total());
-    far_hand_ = there.hand;
-    far_force_ = truth_.device.force;
 }
 
 void TeleopRun::tick_far_side(Nanoseconds now) {
@@ -380,7 +380,6 @@ TeleopFigures TeleopRun::run(TeleopBins* bins) {
             builder_.update(now, operator_port_->statistics.front().link);
         }
         note_model(i);
-        note_energy(i);
         note_answer();
         if (waiting_for_touch && model_.pointer().contact_count + truth_.pointer().contact_count > 0) {
             waiting_for_touch = false;
@@ -394,37 +393,11 @@ TeleopFigures TeleopRun::run(TeleopBins* bins) {
 }
 
 TeleopFigures TeleopRun::figures(TeleopBins* bins) {
-    TeleopFigures figures = evaluate(rows_, experiment_, ports_, bins);
-    figures["correction_force_step_max_N"] = largest_step_;
-    for (std::size_t body = 0; body < contact_ticks_.size(); ++body) {
-        figures[scene_.bodies[body].name + "_contact_share"] =
-            static_cast<double>(contact_ticks_[body]) / static_cast<double>(rows_.size());
-    }
-    const TeleopStatistics& ours = operator_port_->statistics.front();
-    const TeleopStatistics& theirs = far_port_->statistics.front();
-    const auto per_second = [&](std::uint64_t count) {
-        return static_cast<double>(count) / experiment_.seconds;
-    };
-    figures["packets_forth_per_s"] = per_second(ours.link.packets_sent);
-    figures["packets_back_per_s"] = per_second(theirs.link.packets_sent);
-    figures["packets_per_s"] = per_second(ours.link.packets_sent + theirs.link.packets_sent);
-    figures["bytes_per_s"] = per_second(ours.link.bytes_sent + theirs.link.bytes_sent);
-    // With all that UDP and IPv4 add.
-    constexpr std::uint64_t headers = 28;
-    const auto bits_per_s = [&](const LinkStatistics& link) {
-        return 8.0 * per_second(link.bytes_sent + link.packets_sent * headers);
-    };
-    figures["bits_forth_per_s"] = bits_per_s(ours.link);
-    figures["bits_back_per_s"] = bits_per_s(theirs.link);
-    figures["bits_per_s"] = figures["bits_forth_per_s"] + figures["bits_back_per_s"];
-    figures["corrections"] = static_cast<double>(ours.corrections);
-    figures["replays"] = static_cast<double>(ours.replays);
-    figures["states_beyond_history"] = static_cast<double>(ours.beyond_history);
-    figures["samples_held"] = static_cast<double>(theirs.buffer.held);
-    figures["samples_filled"] = static_cast<double>(theirs.buffer.filled);
-    figures["round_trip_ms"] = 1e3 * ours.round_trip;
+    std::vector<std::string> bodies;
+    std::ranges::transform(scene_.bodies, std::back_inserter(bodies), &TeleopBody::name);
+    const TeleopFigures figures = evaluate(rows_, experiment_, bodies, bins);
     if (!experiment_.rows.empty()) {
-        if (!write_rows(experiment_.rows, rows_)) {
+        if (!write_rows(experiment_.rows, bodies, rows_)) {
             std::fprintf(stderr, "%s could not be written: is the disk full?\n", experiment_.rows.c_str());
             std::exit(EXIT_FAILURE);
         }

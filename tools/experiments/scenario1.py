@@ -43,9 +43,9 @@ def run(given: dict[str, str], output: Path) -> dict[str, object]:
         best = _promoted(played[number - 1], output)
         record = records.last_seconds(records.read(best.rows), settings.seconds)
         figures = {**best.statistics, **records.figures(record)}
+        _write_rounds(output / "rounds.csv", case, played)
         if settings.clock == "real":
             figures |= {"steal_share": best.steal_share, "rounds": len(played), "round_reported": number}
-            _write_rounds(output / "rounds.csv", case, played)
             _write_periods(output / f"{case.name}_periods.csv", best)
         summary |= {f"{case.name}.{name}": value for name, value in figures.items()}
         if settings.pictures:

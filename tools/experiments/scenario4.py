@@ -14,6 +14,7 @@ heavy, its surfaces 30 % too slippery) and is corrected all the time. Keys are S
     phantom_force_share        of the time in which something is felt where there is nothing, 0 … 1
     box_position_error_rms_mm  box in the model against box in the environment (dynamic only)
     round_trip_ms, packets_per_s
+Each follows from the rows of SCENE.SCENARIO.csv, the last two from links.csv.
 """
 
 from dataclasses import dataclass
@@ -40,6 +41,7 @@ class Settings:
 def run(given: dict[str, str], output: Path) -> dict[str, object]:
     settings = options.parse(Settings, given)
     runs = teleop_processes.play_all(cases(settings), output)
+    teleop_processes.write_links(runs, output / "links.csv")
     found = {name: teleop_processes.figures(one) for name, one in runs.items()}
     summary: dict[str, object] = {f"machine.{name}": value for name, value in host.description().items()}
     for name, figures in found.items():

@@ -2,6 +2,7 @@
 in which the same hand touches the true environment directly.
 """
 
+import csv
 import json
 import os
 import subprocess
@@ -233,13 +234,30 @@ def phantom_share(run: Run) -> float:
 
 
 def write_rows(run: Run, path: Path) -> None:
-    """The columns of tests/bench/teleop.cpp that both have, for the same plots."""
+    """The columns of tests/bench/teleop.cpp that both have, for the same plots, and so that they are read back bit-exact."""
     box = np.linalg.norm(run.here.object_position - run.there.object_position, axis=1)
     columns = {"time_us": run.here.time[:, None] * 1e6, "hand": run.here.hand, "force": run.here.force}
     columns |= {"direct": run.direct.force, "far": run.there.force, "model": run.here.object_position}
-    columns |= {"truth": run.there.object_position, "box_error_m": box[:, None]}
+    columns |= {"truth": run.there.object_position, "box_error_m": box[:, None], "direct_contacts": run.direct.contacts[:, None]}
     names = [f"{name}_{axis}" if data.shape[1] == 3 else name for name, data in columns.items() for axis in "xyz"[: data.shape[1]]]
-    np.savetxt(path, np.hstack(list(columns.values())), delimiter=",", fmt="%.9g", header=",".join(names), comments="")
+    with path.open("w", newline="") as file:
+        writer = csv.writer(file)
+        writer.writerow(names)
+        writer.writerows(np.hstack(list(columns.values())).tolist())
+
+
+def write_links(runs: dict[str, Run], path: Path) -> None:
+    """What the link of each side has counted: one row a case and side."""
+    rows = [
+        {"case": name, "side": side, **{key: value for key, value in run.statistics[number]["link"].items() if not isinstance(value, str)}}
+        for name, run in runs.items()
+        for side, number in (("operator", OPERATOR), ("teleoperator", FAR))
+    ]
+    with path.open("w", newline="") as file:
+        # What one side alone counts is empty at the other one.
+        writer = csv.DictWriter(file, list(dict.fromkeys(key for row in rows for key in row)))
+        writer.writeheader()
+        writer.writerows(rows)
 
 
 def play_all(cases: list[Case], output: Path) -> dict[str, Run]:
