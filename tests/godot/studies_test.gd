@@ -237,6 +237,21 @@ func test_other_settings_and_a_run_in_use_begin_a_run_of_their_own() -> void:
 	check_equal(third.file.csv_path().get_file(), "stiffness_own_3.csv", "with another reference")
 
 
+func test_without_a_participant_each_start_is_a_run_of_its_own() -> void:
+	for number: int in [1, 2]:
+		var study := _open("stiffness")
+		check_equal(study.file.csv_path().get_file(), "stiffness_0_%d.csv" % number, "file")
+		check_equal(study.trial, 0, "its first trial")
+		study.answer(0)
+		# As after a crash: nothing has been finished.
+		study.free()
+	var form := (load("res://studies/stiffness.tscn") as PackedScene).instantiate()
+	var said: String = form.take_words(PackedStringArray(["--goes_on=1"]))
+	check("--participant=CODE" in said, "going on with a run of nobody: '%s'" % said)
+	check_equal(form.take_words(PackedStringArray(["--goes_on=1", "--participant=P07"])), "", "of P07")
+	form.free()
+
+
 func test_what_cannot_be_kept_stops_the_study_and_says_why() -> void:
 	expect_error("cannot be made")
 	expect_error("Could not create directory")

@@ -5,8 +5,8 @@ extends Node3D
 ##
 ##     ./run app res://studies/stiffness.tscn -- --participant=P07 --seed_of_order=7
 ##
-## Every exported property of the root node can be given so. A run that was not finished, with the same
-## settings, goes on at its next trial.
+## Every exported property of the root node can be given so. A participant's run that was not finished, with
+## the same settings, goes on at its next trial.
 @warning_ignore_start("inferred_declaration", "untyped_declaration", "return_value_discarded", "unsafe_cast")
 @warning_ignore_start("unsafe_method_access", "unsafe_property_access", "unsafe_call_argument")
 @warning_ignore_start("integer_division", "incompatible_ternary", "shadowed_variable_base_class")
@@ -19,18 +19,21 @@ const OptionWords := preload("option_words.gd")
 
 ## Without contact for so long, a hand counts as lifted (unit: seconds).
 const LIFTED := 0.2
+## The code where none is given.
+const NOT_NAMED := "0"
 ## Between two signs that this run is being answered (unit: seconds).
 const TOUCH_EVERY := 2.0
 
-## The participant's code. A list of codes and names stays apart from the data.
-@export var participant := "0"
+## The participant's code. A list of codes and names stays apart from the data. NOT_NAMED: each start is a run
+## of its own, for two people who start it so may be two participants.
+@export var participant := NOT_NAMED
 ## The same seed gives the same order; 0 draws one.
 @export_range(0, 1000000000) var seed_of_order := 0
 ## Where the files of all participants are.
 @export_dir var folder := "user://studies"
 ## The hand's world: its fingertips have to be lifted between trials.
 @export var world: HapticWorld
-## 0: a run that was not finished stays as it is, and a new one begins.
+## 0: a run that was not finished stays as it is, and a new one begins, as it does for NOT_NAMED.
 @export var goes_on := true
 
 ## Chance of the present trial: it depends on the seed and the trial's number alone.
@@ -70,6 +73,8 @@ func take_words(arguments: PackedStringArray) -> String:
 	wrong = CallerPath.problem(place)
 	if not wrong.is_empty():
 		return wrong
+	if words.values.get("goes_on", false) and words.values.get("participant", participant) == NOT_NAMED:
+		return "--goes_on=1 is refused: say whose run goes on, with --participant=CODE"
 	for key: String in words.values:
 		set(key, words.values[key])
 	folder = place
@@ -84,7 +89,8 @@ func start() -> void:
 		return
 	var settings := _settings()
 	var drawn := seed_of_order if seed_of_order != 0 else randi_range(1, 1000000000)
-	var wrong := file.begin(folder, study_name(), participant, settings, _more(drawn), goes_on)
+	var may_go_on := goes_on and participant != NOT_NAMED
+	var wrong := file.begin(folder, study_name(), participant, settings, _more(drawn), may_go_on)
 	if not wrong.is_empty():
 		_end_with(wrong)
 		return
