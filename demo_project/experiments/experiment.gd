@@ -13,7 +13,7 @@ extends Node
 ## --warmup=SECONDS     until statistics count, in real time; 0.5 where it is missing
 ## --baseline=1         a bare loop that only sleeps runs beside, for comparison
 ## --processor=NUMBER   the one on which the haptic thread stays; see HapticWorld.processor
-## --screenshots=1,2.5  saves CASE_1.png, CASE_2.5.png at these times; needs a screen
+## --screenshots=1,2.5  saves CASE_1.png, CASE_2.5.png at these times; needs a screen: refused with --headless
 ## --link.NAME=VALUE    a property of the scene's MMTLink, or of its resources as in link.conditions.delay.
 ##                      With --link.scenario=2 or 4 this is one side of a teleoperation: the operator's hand
 ##                      waits until it knows all bodies of the far side, and the duration counts from there;
@@ -155,9 +155,29 @@ func _take(arguments: PackedStringArray) -> String:
 	words.declared = _declared()
 	var problem := words.read(own)
 	_options.merge(words.values, true)
+	if problem.is_empty():
+		problem = _problem_of_screenshots()
 	if problem.is_empty() and (_options.case.contains("/") or _options.case.begins_with(".")):
 		return "--case=%s is refused: it must be the name of a file" % _options.case
 	return problem
+
+
+## Why no picture can be taken of each of these times. When a side that stays until the other one goes, or
+## that waits for it, ends its run, is known only then.
+func _problem_of_screenshots() -> String:
+	var times: PackedFloat64Array = _options.screenshots
+	if times.is_empty():
+		return ""
+	times.sort()
+	_options.screenshots = times
+	if not _link_options.has("scenario") and times[-1] > _options.duration:
+		return (
+			"--screenshots=%s is refused: the run ends at --duration=%s (s)"
+			% [String.num(times[-1]), String.num(_options.duration)]
+		)
+	if DisplayServer.get_name() == "headless":
+		return "--screenshots is refused: nothing is drawn with --headless, start it without"
+	return ""
 
 
 ## The folder, and in it a name that no file of before has. Empty, or why not.
@@ -414,11 +434,11 @@ func _play(world: HapticWorld, link: MMTLink, stepped: bool) -> void:
 		if not screenshots.is_empty() and world.get_time() >= screenshots[0]:
 			await _take_screenshot(screenshots.pop_front())
 	RenderingServer.render_loop_enabled = true
+	for time: float in screenshots:
+		_problems.append("there is no picture of %s s: the run ended before" % String.num(time))
 
 
 func _take_screenshot(time: float) -> void:
-	if DisplayServer.get_name() == "headless":
-		return
 	RenderingServer.render_loop_enabled = true
 	await RenderingServer.frame_post_draw
 	RenderingServer.render_loop_enabled = _options.watch

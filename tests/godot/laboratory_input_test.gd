@@ -75,6 +75,18 @@ func test_nonsense_is_refused_and_nothing_is_written() -> void:
 	check(not DirAccess.dir_exists_absolute(_folder) or _files().is_empty(), "left: %s" % [_files()])
 
 
+func test_a_picture_that_cannot_be_taken_is_refused() -> void:
+	for asked: Array in [
+		["0.05", "nothing is drawn with --headless"], ["5,0.05", "the run ends at --duration=0.1"]
+	]:
+		var experiment := Experiment.new()
+		var said := experiment._take(PackedStringArray(["--duration=0.1", "--screenshots=" + asked[0]]))
+		check(asked[1] in said, "--screenshots=%s: '%s'" % [asked[0], said])
+		experiment.free()
+		check_equal(await _run(["--screenshots=" + asked[0]]), Experiment.REFUSED, asked[0])
+	check(not DirAccess.dir_exists_absolute(_folder), "a folder is left")
+
+
 func test_a_property_that_refuses_its_value_ends_the_run() -> void:
 	expect_error("was refused, the old value stays")
 	check_equal(await _run(["--link.conditions.loss=5"]), Experiment.REFUSED, "a loss of 5")
