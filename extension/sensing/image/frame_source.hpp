@@ -26,7 +26,8 @@ public:
     virtual const std::string& name() const = 0;
     // Of the last damaged frame: what is wrong and what to do.
     virtual const std::string& trouble() const = 0;
-    // What is to be known beside its frames, as the end of a sentence that begins with its name; empty: nothing.
+    // What is to be known beside its frames, as the end of a sentence that begins with its name; empty:
+    // nothing.
     virtual std::string remark() const { return {}; }
     // Its images are stamped with the time at which they were taken, on this machine's monotonic clock.
     virtual bool has_our_clock() const { return false; }
