@@ -284,6 +284,8 @@ inline constexpr int members<StealthSettings> = 10;
 template <>
 inline constexpr int members<EstimateSettings> = 7;
 template <>
+inline constexpr int members<ResidualSettings> = 10;
+template <>
 inline constexpr int members<PoseFilterSettings> = 5;
 template <>
 inline constexpr int members<SeenPoseSettings> = 2;
@@ -300,7 +302,7 @@ inline constexpr int members<DeadbandSettings> = 7;
 template <>
 inline constexpr int members<ClockSkew> = 3;
 template <>
-inline constexpr int members<TeleopSettings> = 25;
+inline constexpr int members<TeleopSettings> = 26;
 template <>
 inline constexpr int members<EndpointSettings> = 8;
 template <>

@@ -23,6 +23,8 @@ void ModelPast::note_pushes(SessionLoop& loop, const TruthStore& truths, SampleS
         if (const SessionHandle body = truths.body_at(place); loop.body(body)) {
             const Vec3 push = loop.pushed(body);
             pushes_[place * samples() + sample % samples()] = push;
+            residuals_[place * samples() + sample % samples()] = {loop.body(body)->helped,
+                                                                  loop.body(body)->helped_turn};
             if (push != Vec3(0.0)) {
                 last_push_ = std::max(last_push_, sample);
             }
@@ -42,6 +44,16 @@ Vec3 ModelPast::pushed(std::uint32_t place, SampleSequence first, SampleSequence
     Vec3 sum(0.0);
     for (SampleSequence sample = first + 1; sample <= last; ++sample) {
         sum += pushes_[place * samples() + sample % samples()];
+    }
+    return sum;
+}
+
+ModelPast::Given ModelPast::helped(std::uint32_t place, SampleSequence first, SampleSequence last) const {
+    Given sum;
+    for (SampleSequence sample = first + 1; sample <= last; ++sample) {
+        const Given& given = residuals_[place * samples() + sample % samples()];
+        sum.linear += given.linear;
+        sum.angular += given.angular;
     }
     return sum;
 }

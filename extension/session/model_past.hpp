@@ -1,5 +1,5 @@
 // What the model has been through, by sample of the operator: the hands, and for each body with a place how
-// it moved and what the hands gave it.
+// it moved and what the hands and its residual gave it.
 #pragma once
 
 #include <array>
@@ -14,6 +14,10 @@ namespace tactus {
 
 class ModelPast {
 public:
+    // Velocities.
+    struct Given {
+        Vec3 linear{0.0}, angular{0.0};
+    };
     struct Hand {
         Vec3 position{0.0};
         Vec3 velocity{0.0};
@@ -26,14 +30,17 @@ public:
     };
 
     ModelPast(std::size_t places, std::size_t samples)
-        : history_(places, samples), moments_(samples), pushes_(places * samples, Vec3(0.0)) {}
+        : history_(places, samples),
+          moments_(samples),
+          pushes_(places * samples, Vec3(0.0)),
+          residuals_(places * samples) {}
 
     std::size_t samples() const { return moments_.size(); }
 
     void note_hands(SessionLoop& loop, SampleSequence sample, Nanoseconds now);
     const Moment& moment(SampleSequence sample) const { return moments_[sample % moments_.size()]; }
 
-    // Before the step: what hands press bodies with. After it: how they move.
+    // What hands and residuals gave bodies in this sample's step, and how they move after it.
     void note_pushes(SessionLoop& loop, const TruthStore& truths, SampleSequence sample);
     void note_motions(SessionLoop& loop, const TruthStore& truths, SampleSequence sample);
 
@@ -45,6 +52,8 @@ public:
     SampleSequence last_push() const { return last_push_; }
     // The velocity that hands gave the body after sample `first` up to `last`.
     Vec3 pushed(std::uint32_t place, SampleSequence first, SampleSequence last) const;
+    // And its residual.
+    Given helped(std::uint32_t place, SampleSequence first, SampleSequence last) const;
 
     // The body has been elsewhere since `first`.
     void carry(std::uint32_t place, SampleSequence first, SampleSequence last, const BodyMotion& before,
@@ -56,7 +65,8 @@ public:
 private:
     StateHistory history_;
     std::vector<Moment> moments_;
-    std::vector<Vec3> pushes_;  // by place and sample
+    std::vector<Vec3> pushes_;      // by place and sample
+    std::vector<Given> residuals_;  // by place and sample
     SampleSequence last_push_ = no_sample;
 };
 

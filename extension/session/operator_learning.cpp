@@ -1,4 +1,5 @@
-// What the motion of the far side's bodies teaches about their mass and friction.
+// What the motion of the far side's bodies teaches about their mass and friction, and of what else acts on
+// them (residual_motion.hpp).
 //
 // A body that touches another one that moves teaches nothing by itself: what it gets from there belongs to
 // both. Bodies that touch each other are one: what they do to each other leaves their common momentum as it
@@ -25,10 +26,19 @@ constexpr double least_friction = 0.1;
 }  // namespace
 
 void OperatorSide::learn(SessionLoop& loop) {
+    const ResidualSettings& residual = settings().residual;
+    gather_pupils(loop);
+    for (const Pupil& pupil : pupils_) {
+        if (pupil.has_lesson) {
+            BodyResidual& learnt = residuals_[pupil.place];
+            learnt.linear.learn(residual, pupil.residual, residual.largest_error, residual.largest);
+            learnt.turn.learn(residual, pupil.residual_turn, residual.largest_turn_error,
+                              residual.largest_turn);
+        }
+    }
     if (!(settings().estimate.gain > 0.0)) {
         return;
     }
-    gather_pupils(loop);
     for (std::size_t i = 0; i < pupils_.size(); ++i) {
         if (pupils_[i].group == i) {
             teach(loop, i);
@@ -44,8 +54,8 @@ void OperatorSide::gather_pupils(SessionLoop& loop) {
         if (!known || known->motion != Motion::Dynamic || loop.asleep(body)) {
             continue;
         }
-        Pupil pupil{body, place, pupils_.size(), loop.mass(body), false, no_sample, no_sample, {}};
-        pupil.has_lesson = truths_.of(body).fresh && lesson_for(loop, body, pupil.lesson);
+        Pupil pupil{body, place, pupils_.size(), loop.mass(body), false, no_sample, no_sample, {}, {}, {}};
+        pupil.has_lesson = truths_.of(body).fresh && lesson_for(loop, pupil);
         pupil.from = truths_.of(body).sample_before;
         pupil.to = truths_.of(body).sample;
         pupils_.push_back(pupil);
@@ -65,23 +75,29 @@ void OperatorSide::gather_pupils(SessionLoop& loop) {
 }
 
 // From one truth of a body to the next, the model's has come from nearly the same state.
-bool OperatorSide::lesson_for(SessionLoop& loop, SessionHandle body, MotionLesson& lesson) const {
-    const Truth& truth = truths_.of(body);
-    const std::uint32_t place = truths_.place_of(body);
+bool OperatorSide::lesson_for(SessionLoop& loop, Pupil& pupil) const {
+    const Truth& truth = truths_.of(pupil.body);
+    const std::uint32_t place = pupil.place;
+    MotionLesson& lesson = pupil.lesson;
     const BodyMotion* const start = past_.motion(place, truth.sample_before);
     const BodyMotion* const end = past_.motion(place, truth.sample);
     if (!start || !end || truth.sample <= truth.sample_before ||
         truth.sample - truth.sample_before >= past_.samples()) {
         return false;
     }
-    const bool from_truth = resimulator_.goes_on_from(body) == truth.sample_before;
+    const bool from_truth = resimulator_.goes_on_from(pupil.body) == truth.sample_before;
     lesson.truth_before = truth.before.linear_velocity;
     lesson.truth = truth.motion.linear_velocity;
     lesson.model_before = from_truth ? truth.before.linear_velocity : start->linear_velocity;
-    lesson.model = end->linear_velocity;
+    const ModelPast::Given helped = past_.helped(place, truth.sample_before, truth.sample);
+    lesson.model = end->linear_velocity - helped.linear;
     lesson.pushed = past_.pushed(place, truth.sample_before, truth.sample);
     lesson.seconds = static_cast<double>(truth.sample - truth.sample_before) * seconds_;
     lesson.fell = loop.gravity() * lesson.seconds;
+    pupil.residual = {lesson.truth - lesson.truth_before, lesson.model - lesson.model_before, lesson.seconds};
+    const Vec3& turned_before = from_truth ? truth.before.angular_velocity : start->angular_velocity;
+    pupil.residual_turn = {truth.motion.angular_velocity - truth.before.angular_velocity,
+                           end->angular_velocity - helped.angular - turned_before, lesson.seconds};
     return true;
 }
 
@@ -130,6 +146,37 @@ void OperatorSide::set_factors(SessionLoop& loop, SessionHandle body, const Para
     loop.set_factors(body, factors);
     if (SessionLoop* const twin = resimulator_.twin()) {
         twin->set_factors(body, factors);
+    }
+}
+
+// Once a tick: the present and the past that is replayed have the same.
+void OperatorSide::set_residuals(SessionLoop& loop) {
+    SessionLoop* const twin = resimulator_.twin();
+    loop.clear_residuals();
+    if (!twin) {
+        return;
+    }
+    twin->clear_residuals();
+    const bool replays = settings().derivation == Derivation::resimulate &&
+                         settings().correction != Correction::none && !settings().traditional;
+    const ResidualSettings& residual = settings().residual;
+    for (std::uint32_t place = 0; place < truths_.places(); ++place) {
+        const SessionHandle body = truths_.body_at(place);
+        if (body == no_handle || truths_.of(body).sample == no_sample) {
+            continue;
+        }
+        BodyResidual& learnt = residuals_[place];
+        learnt.linear.tick(residual, seconds_);
+        learnt.turn.tick(residual, seconds_);
+        if (!replays) {
+            continue;
+        }
+        const Truth& truth = truths_.of(body);
+        const Residual linear = learnt.linear.residual(residual, truth.motion.linear_velocity);
+        const Residual turn = learnt.turn.residual(residual, truth.motion.angular_velocity);
+        const Nanoseconds since = past_.moment(truth.sample).time;
+        loop.set_residual(body, linear, turn, since);
+        twin->set_residual(body, linear, turn, since);
     }
 }
 

@@ -20,6 +20,7 @@ OperatorSide::OperatorSide(const SessionSettings& session, const OperatorRoom& r
       past_(room.max_tracked, room.samples),
       resimulator_(session, room.samples, room.samples_a_memento, room.memento_bytes, room.replays),
       estimates_(room.max_tracked, ParameterEstimate(settings.estimate)),
+      residuals_(room.max_tracked),
       alone_since_(room.max_tracked, 0),
       filters_(session.max_bodies),
       found_(session.max_bodies),
@@ -66,6 +67,7 @@ void OperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
     }
     receive(loop, now);
     take_over_found(loop);
+    set_residuals(loop);
     statistics_.spent += std::exchange(statistics_.cost, {});
     targets_.clear();
     corrected_ = false;
@@ -257,6 +259,7 @@ void OperatorSide::forget_body(SessionHandle body) {
 void OperatorSide::forget_place(std::uint32_t place) {
     past_.forget(place);
     estimates_[place].forget(settings().estimate);
+    residuals_[place] = {};
     alone_since_[place] = sample_;
 }
 

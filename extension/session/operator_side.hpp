@@ -121,6 +121,12 @@ private:
         bool has_lesson = false;
         SampleSequence from = no_sample, to = no_sample;
         MotionLesson lesson;
+        ResidualMotion::Lesson residual, residual_turn;
+    };
+
+    // Of a body with a place.
+    struct BodyResidual {
+        ResidualMotion linear, turn;
     };
 
     // What the far side has found out about a body, in this side's scene.
@@ -169,7 +175,8 @@ private:
     // --- operator_learning.cpp
     void learn(SessionLoop& loop);
     void gather_pupils(SessionLoop& loop);
-    bool lesson_for(SessionLoop& loop, SessionHandle body, MotionLesson& lesson) const;
+    bool lesson_for(SessionLoop& loop, Pupil& pupil) const;
+    void set_residuals(SessionLoop& loop);
     void teach(SessionLoop& loop, std::size_t group);
     void take_over_found(SessionLoop& loop);
     bool take_over(SessionLoop& loop, SessionHandle body, const ObjectEstimate& estimate);
@@ -227,6 +234,7 @@ private:
     Resimulator resimulator_;
     TraditionalTouch traditional_;
     std::vector<ParameterEstimate> estimates_;  // by place
+    std::vector<BodyResidual> residuals_;       // by place
     std::vector<SampleSequence> alone_since_;   // by place: the body has touched no other that moves since
     std::vector<Pupil> pupils_;                 // of this tick
     std::vector<PoseFilter> filters_;           // by body

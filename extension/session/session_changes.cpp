@@ -151,6 +151,7 @@ bool SessionLoop::carry_out(command::RemoveBody& c, Retired& retired) {
     end_travel(c.handle);
     forget_magnet(c.handle);
     std::erase(pushed_, c.handle);
+    std::erase(helped_, c.handle);
     std::erase(guessed_, c.handle);
     std::erase_if(led_, [&c](const Led& one) { return one.state.handle == c.handle; });
     std::erase(forming_, c.handle);
@@ -508,6 +509,7 @@ bool SessionLoop::carry_out(command::EndRecording& c, Retired&) {
 
 bool SessionLoop::carry_out(command::Attach& c, Retired& retired) {
     std::swap(side_, c.side);
+    clear_residuals();
     for (DeviceSlot& slot : devices_) {
         slot.jumped = true;
     }

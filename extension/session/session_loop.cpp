@@ -51,6 +51,7 @@ SessionLoop::SessionLoop(const SessionSettings& settings, TripleBuffer<SessionSn
     giving_.reserve(settings.max_bodies);
     magnets_.reserve(settings.max_bodies);
     pushed_.reserve(settings.max_bodies);
+    helped_.reserve(settings.max_bodies);
     guessed_.reserve(settings.max_bodies);
     led_.reserve(max_led);
     joints_.resize(settings.physics.max_joints);
@@ -383,6 +384,46 @@ void SessionLoop::push_bodies() {
     }
 }
 
+void SessionLoop::set_residual(SessionHandle handle, const Residual& linear, const Residual& turn,
+                               Nanoseconds since) {
+    Body* const changed = body(handle);
+    const Residual none;
+    if (changed && changed->motion == Motion::Dynamic && (linear != none || turn != none)) {
+        changed->residual = linear;
+        changed->residual_turn = turn;
+        changed->residual_since = since;
+        helped_.push_back(handle);
+    }
+}
+
+void SessionLoop::clear_residuals() {
+    for (const SessionHandle handle : helped_) {
+        Body& helped = bodies_[handle];
+        helped.residual = helped.residual_turn = {};
+        helped.helped = helped.helped_turn = Vec3(0.0);
+    }
+    helped_.clear();
+}
+
+void SessionLoop::help_bodies() {
+    for (const SessionHandle handle : helped_) {
+        Body& helped = bodies_[handle];
+        helped.helped = helped.helped_turn = Vec3(0.0);
+        if (helped.motion != Motion::Dynamic || !physics_.awake(helped.id)) {
+            continue;
+        }
+        const double since = to_seconds(time_ - helped.residual_since);
+        const BodyMotion now = physics_.state(helped.id);
+        helped.helped = residual_step(helped.residual, now.linear_velocity, since, seconds_);
+        helped.helped_turn = residual_step(helped.residual_turn, now.angular_velocity, since, seconds_);
+        if (helped.helped_turn != Vec3(0.0)) {
+            physics_.set_velocity(helped.id, now.linear_velocity, now.angular_velocity + helped.helped_turn);
+        }
+        physics_.apply_force(helped.id, helped.helped * (physics_.mass(helped.id) / seconds_),
+                             physics_.center_of_mass(helped.id));
+    }
+}
+
 // The opposite of what the hand feels goes to what it touches, where it touches it.
 void SessionLoop::press_bodies(const ProxySlot& slot) {
     for (int i = 0; i < slot.parts.contact_count; ++i) {
@@ -432,6 +473,7 @@ void SessionLoop::describe(ProxySlot& slot, const ProxyTick& tick) {
 
 void SessionLoop::step_physics() {
     push_bodies();
+    help_bodies();
     hands_.clear();
     for (const ProxySlot& slot : proxies_) {
         if (slot.proxy && slot.description.enabled) {

@@ -13,6 +13,7 @@
 #include "core/haptics/surface_effects.hpp"
 #include "core/haptics/touch_scene.hpp"
 #include "core/proxy/proxy.hpp"
+#include "core/teleop/residual_motion.hpp"
 #include "physics/physics_world.hpp"
 #include "realtime/tick_trace.hpp"
 #include "realtime/triple_buffer.hpp"
@@ -49,6 +50,10 @@ public:
         int ticks_left = 0;
         Vec3 push{0.0};  // in every tick, see Session::set_body_push
         Vec3 twist{0.0};
+        // See set_residual().
+        Residual residual, residual_turn;
+        Nanoseconds residual_since = 0;
+        Vec3 helped{0.0}, helped_turn{0.0};  // velocities that it gave in the last step
         // See Session::see_body.
         std::optional<PoseDoubt> doubt;  // none: it has never been seen
         Nanoseconds guessed_until = 0;   // it goes on as it was seen to
@@ -151,6 +156,10 @@ public:
     bool asleep(SessionHandle handle);
     bool touching(SessionHandle first, SessionHandle second) const;  // each other, in the last step
     void set_factors(SessionHandle handle, const BodyFactors& factors);
+    // What acts on a body beyond this loop's physics, in every tick until all are taken away; `since`: their
+    // time 0.
+    void set_residual(SessionHandle handle, const Residual& linear, const Residual& turn, Nanoseconds since);
+    void clear_residuals();
     double mass(SessionHandle handle) const;  // (unit: kilograms); 0 for what cannot move
     void set_touch(SessionHandle handle, const TouchMaterial& material);
     const Vec3& gravity() const { return gravity_; }
@@ -345,6 +354,7 @@ private:
     void note_magnet(SessionHandle handle);
     void forget_magnet(SessionHandle handle);
     void push_bodies();
+    void help_bodies();
     void press_bodies(const ProxySlot& slot);
     void write_devices(Nanoseconds now);
     SafetySample safety_sample(DeviceSlot& slot, std::size_t index) const;
@@ -377,6 +387,7 @@ private:
     std::size_t soft_turn_ = 0;            // of those, the first in the next tick
     std::size_t slowed_soft_ = 0;          // of those, left out in the last
     std::vector<SessionHandle> pushed_;    // bodies with a push of their own
+    std::vector<SessionHandle> helped_;    // bodies with a residual
     std::vector<SessionHandle> guessed_;   // bodies that were seen to move
     std::vector<Led> led_;                 // see Session::lead_body
     std::vector<JointId> joints_;          // by handle

@@ -146,6 +146,7 @@ void SessionLoop::begin_replay_tick() {
 }
 
 void SessionLoop::end_replay_tick(Nanoseconds now) {
+    time_ = now;
     touch_all(now);
     touch_tools();
     press_all();

@@ -20,6 +20,7 @@
 #include "core/teleop/passive_update.hpp"
 #include "core/teleop/passivity.hpp"
 #include "core/teleop/pose_filter.hpp"
+#include "core/teleop/residual_motion.hpp"
 #include "core/teleop/seen_pose.hpp"
 #include "core/teleop/stealth.hpp"
 #include "network/discovery_receiver.hpp"
@@ -42,6 +43,7 @@ struct TeleopSettings {
     MotionThreshold threshold;
     StealthSettings stealth;
     EstimateSettings estimate;              // with re-simulation
+    ResidualSettings residual;              // with re-simulation
     PoseFilterSettings filter;              // with re-simulation
     SeenPoseSettings seen;                  // of what the far side says how surely it sees
     ForceLimits limits;                     // of what leaves for the devices
