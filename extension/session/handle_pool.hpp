@@ -30,6 +30,8 @@ public:
         return handle;
     }
     bool in_use(SessionHandle handle) const { return handle < in_use_.size() && in_use_[handle]; }
+    // Also those that the loop may still have.
+    bool any() const { return free_.size() < in_use_.size(); }
     // Its owner lets go of it; the loop may still have it. False where nobody held it.
     bool let_go(SessionHandle handle) {
         const bool held = in_use(handle);

@@ -284,7 +284,7 @@ inline constexpr int members<StealthSettings> = 10;
 template <>
 inline constexpr int members<EstimateSettings> = 7;
 template <>
-inline constexpr int members<ResidualSettings> = 10;
+inline constexpr int members<ResidualSettings> = 11;
 template <>
 inline constexpr int members<PoseFilterSettings> = 5;
 template <>

@@ -172,11 +172,12 @@ void OperatorSide::set_residuals(SessionLoop& loop) {
             continue;
         }
         const Truth& truth = truths_.of(body);
-        const Residual linear = learnt.linear.residual(residual, truth.motion.linear_velocity);
-        const Residual turn = learnt.turn.residual(residual, truth.motion.angular_velocity);
-        const Nanoseconds since = past_.moment(truth.sample).time;
-        loop.set_residual(body, linear, turn, since);
-        twin->set_residual(body, linear, turn, since);
+        const Residual linear =
+            learnt.linear.residual(residual, truth.motion.linear_velocity, residual.least);
+        const Residual turn =
+            learnt.turn.residual(residual, truth.motion.angular_velocity, residual.least_turn);
+        loop.set_residual(body, linear, turn);
+        twin->set_residual(body, linear, turn);
     }
 }
 

@@ -1,6 +1,7 @@
 #include "session/session.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <type_traits>
 #include <variant>
 
@@ -178,6 +179,7 @@ void Session::end_recording(RecorderRing<SessionRecord>& ring) {
 
 void Session::attach(std::unique_ptr<TeleopSide> side) {
     impl_->has_twin = side && side->twin();
+    assert((!impl_->has_twin || impl_->is_empty()) && "attach a side with a twin before anything is added");
     impl_->hears_tools = side && side->hears_tools();
     impl_->send(command::Attach{std::move(side)});
 }

@@ -384,14 +384,12 @@ void SessionLoop::push_bodies() {
     }
 }
 
-void SessionLoop::set_residual(SessionHandle handle, const Residual& linear, const Residual& turn,
-                               Nanoseconds since) {
+void SessionLoop::set_residual(SessionHandle handle, const Residual& linear, const Residual& turn) {
     Body* const changed = body(handle);
     const Residual none;
     if (changed && changed->motion == Motion::Dynamic && (linear != none || turn != none)) {
         changed->residual = linear;
         changed->residual_turn = turn;
-        changed->residual_since = since;
         helped_.push_back(handle);
     }
 }
@@ -412,10 +410,9 @@ void SessionLoop::help_bodies() {
         if (helped.motion != Motion::Dynamic || !physics_.awake(helped.id)) {
             continue;
         }
-        const double since = to_seconds(time_ - helped.residual_since);
         const BodyMotion now = physics_.state(helped.id);
-        helped.helped = residual_step(helped.residual, now.linear_velocity, since, seconds_);
-        helped.helped_turn = residual_step(helped.residual_turn, now.angular_velocity, since, seconds_);
+        helped.helped = residual_step(helped.residual, now.linear_velocity, seconds_);
+        helped.helped_turn = residual_step(helped.residual_turn, now.angular_velocity, seconds_);
         if (helped.helped_turn != Vec3(0.0)) {
             physics_.set_velocity(helped.id, now.linear_velocity, now.angular_velocity + helped.helped_turn);
         }

@@ -52,7 +52,6 @@ public:
         Vec3 twist{0.0};
         // See set_residual().
         Residual residual, residual_turn;
-        Nanoseconds residual_since = 0;
         Vec3 helped{0.0}, helped_turn{0.0};  // velocities that it gave in the last step
         // See Session::see_body.
         std::optional<PoseDoubt> doubt;  // none: it has never been seen
@@ -156,9 +155,8 @@ public:
     bool asleep(SessionHandle handle);
     bool touching(SessionHandle first, SessionHandle second) const;  // each other, in the last step
     void set_factors(SessionHandle handle, const BodyFactors& factors);
-    // What acts on a body beyond this loop's physics, in every tick until all are taken away; `since`: their
-    // time 0.
-    void set_residual(SessionHandle handle, const Residual& linear, const Residual& turn, Nanoseconds since);
+    // What acts on a body beyond this loop's physics, in every tick until all are taken away.
+    void set_residual(SessionHandle handle, const Residual& linear, const Residual& turn);
     void clear_residuals();
     double mass(SessionHandle handle) const;  // (unit: kilograms); 0 for what cannot move
     void set_touch(SessionHandle handle, const TouchMaterial& material);

@@ -146,7 +146,6 @@ void SessionLoop::begin_replay_tick() {
 }
 
 void SessionLoop::end_replay_tick(Nanoseconds now) {
-    time_ = now;
     touch_all(now);
     touch_tools();
     press_all();

@@ -22,7 +22,8 @@ class LinkedPlaces : public EmulatedLink {
 public:
     struct Place {
         Place(const SessionSettings& settings, int hands, InputRecorder* recorder)
-            : session(settings, recorder), devices(hands) {
+            : session(settings, recorder), devices(hands) {}
+        void add_hands() {
             Workspace workspace;
             workspace.force_limit = 100.0;
             for (HeldDevice& device : devices) {
@@ -61,6 +62,8 @@ public:
             {{{SidePlan::Kind::environment, there, endpoint(Side::teleoperator_side, 2), {}, {}},
               &at_far_,
               far.port}});
+        near.add_hands();
+        far.add_hands();
     }
 
     SessionHandle add(const BodyAddition& there, const BodyAddition& here) {

@@ -110,7 +110,7 @@ void expect_felt(const Held& held, double least) {
     EXPECT_LE(held.step, 0.5 + 1e-9);
 }
 
-constexpr double delays[] = {0.0, 0.01, 0.05, 0.2};
+constexpr double delays[] = {0.0, 0.01, 0.05, 0.1, 0.2};
 
 TEST(Residual, ASpringThatHoldsTheFarBodyIsFelt) {
     for (const double delay : {0.0, 0.01}) {

@@ -83,17 +83,14 @@ SessionSettings small_session() {
 
 // A world with a box on a ground and a hand.
 struct Place {
-    Place() {
+    // After the side is attached, which has its twin follow what comes.
+    void fill(double mass) {
         Workspace workspace;
         workspace.force_limit = 100.0;
         device.position = {0.0, 0.2, 0.0};
         ProxyDescription pointer;
         pointer.device = session.add_device(device, workspace).handle;
         session.add_proxy(pointer);
-    }
-
-    // After the side is attached, which has its twin follow what comes.
-    void fill(double mass) {
         add(body(BoxShape{{1.0, 0.05, 1.0}}, {0.0, -0.05, 0.0}, Motion::Static));
         add(body(BoxShape{Vec3(0.05)}, {0.0, 0.05, 0.0}, Motion::Dynamic, mass));
         session.settle();

@@ -24,7 +24,9 @@ BodyAddition body(const Shape& shape, const Vec3& position, Motion motion, doubl
 
 }  // namespace
 
-AttackPlace::AttackPlace(bool far) : session(small_session()) {
+AttackPlace::AttackPlace() : session(small_session()) {}
+
+void AttackPlace::fill(bool far) {
     Workspace workspace;
     workspace.force_limit = 10.0;
     ProxyDescription pointer;
@@ -63,14 +65,16 @@ AttackRig::AttackRig(bool sealed, const LinkConditions& conditions)
     const auto link = [](std::unique_ptr<SealedLink>& seal, LinkEmulator& way) -> Link& {
         return seal ? static_cast<Link&>(*seal) : way;
     };
-    near = std::make_unique<AttackPlace>(false);
-    far = std::make_unique<AttackPlace>(true);
+    near = std::make_unique<AttackPlace>();
+    far = std::make_unique<AttackPlace>();
     near->session.attach(std::make_unique<OperatorSide>(
         near->session.settings(), OperatorRoom{}, TeleopSettings{}, link(near_seal_, near_way_), near->port,
         endpoint(Side::operator_side, near_epoch)));
     far->session.attach(std::make_unique<TeleoperatorSide>(far->session.settings(), TeleopSettings{},
                                                            link(far_seal_, far_way_), far->port,
                                                            endpoint(Side::teleoperator_side, far_epoch)));
+    near->fill(false);
+    far->fill(true);
     builder_ = std::make_unique<ModelBuilder>(near->session, near->port);
     teller_ = std::make_unique<EnvironmentTeller>(far->port);
     // What is touched; the body of its own is not described.

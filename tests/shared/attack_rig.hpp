@@ -52,7 +52,10 @@ private:
 
 // One place of the two. The environment's bodies are described to the operator.
 struct AttackPlace {
-    explicit AttackPlace(bool far);
+    AttackPlace();
+
+    // Its side is attached.
+    void fill(bool far);
 
     void tick(Nanoseconds now) {
         session.tick(now);

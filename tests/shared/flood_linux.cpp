@@ -214,6 +214,8 @@ struct FloodRig {
         endpoint.epoch = 2;
         far.session.attach(std::make_unique<TeleoperatorSide>(far.session.settings(), TeleopSettings{},
                                                               far_link, far.port, endpoint));
+        near.fill(false);
+        far.fill(true);
         return error;
     }
 
@@ -231,7 +233,7 @@ struct FloodRig {
         return spans;
     }
 
-    AttackPlace near{false}, far{true};
+    AttackPlace near, far;
     UdpLink near_link, far_link;
     std::uint16_t far_port = 0;
     Nanoseconds due = monotonic_now();

@@ -63,6 +63,22 @@ struct TeleopHinge {
     Vec3 axis{0.0, 1.0, 0.0};
 };
 
+// Something of the scene acts on a body's center of mass and no side is told of it: another hand, a wall, a
+// spring, a draft.
+struct TeleopActor {
+    std::string body;
+    // A spring to where the body began; with a normal it only pushes, against the normal, where the body is
+    // beyond a plane.
+    double stiffness = 0.0;  // (unit: newtons per meter)
+    double damping = 0.0;    // while it pushes (unit: newton seconds per meter)
+    Vec3 normal{0.0};        // of length 1; 0: a spring
+    // Of the plane, along the normal from where the body began: it goes to `gap - way` and back in a period.
+    double gap = 0.0, way = 0.0;  // (unit: meters)
+    double period = 1.0;          // (unit: seconds)
+    Vec3 draft{0.0};              // a force (unit: newtons)
+    double from = 0.0, to = 1e9;  // all of it acts then (unit: seconds)
+};
+
 struct TeleopScene {
     std::vector<TeleopBody> bodies;
     std::vector<TeleopHinge> hinges;
@@ -94,6 +110,9 @@ struct TeleopCase {
     bool discovers = false;
     Vec3 gravity_believed{0.0, -9.81, 0.0};  // until it is told (unit: meters per second squared)
     std::vector<TeleopEvent> events;
+    std::vector<TeleopActor> actors;  // of the scene, unknown to the model
+    std::map<std::string, Vec3>
+        hidden_hinges;  // likewise, by body: about y, here in the world (unit: meters)
     double measured_from = 0.0, measured_to = 1e9;  // ticks that count as felt excess (unit: seconds)
     std::optional<double>
         known_after;     // the figures are those of a way that is right so long after the first

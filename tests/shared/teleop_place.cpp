@@ -1,9 +1,12 @@
 #include "shared/teleop_place.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <glm/geometric.hpp>
+#include <map>
+#include <numbers>
 
 #include "devices/path_device.hpp"
 
@@ -30,6 +33,23 @@ HandPath shifted(HandPath path, const Vec3& by) {
         }
     }
     return path;
+}
+
+Vec3 force_of(const TeleopActor& actor, const Vec3& began, const BodyState& body, double seconds) {
+    if (seconds < actor.from || seconds >= actor.to) {
+        return Vec3(0.0);
+    }
+    const Vec3 moved = body.pose.position - began;
+    if (actor.normal == Vec3(0.0)) {
+        return actor.draft - actor.stiffness * moved - actor.damping * body.linear_velocity;
+    }
+    const double turn = 2.0 * std::numbers::pi * (seconds - actor.from) / actor.period;
+    const double plane = actor.gap - 0.5 * actor.way * (1.0 - std::cos(turn));
+    const double speed = -0.5 * actor.way * std::sin(turn) * 2.0 * std::numbers::pi / actor.period;
+    const double depth = glm::dot(moved, actor.normal) - plane;
+    const double approach = glm::dot(body.linear_velocity, actor.normal) - speed;
+    const double push = depth > 0.0 ? actor.stiffness * depth + actor.damping * approach : 0.0;
+    return actor.draft - std::max(0.0, push) * actor.normal;
 }
 
 }  // namespace
@@ -113,6 +133,10 @@ void TeleopPlace::fill(const TeleopScene& scene, const TeleopCase& experiment, b
         if (hinge) {
             hang(*hinge, body.addition.description.pose, added.handle);
         }
+        if (const auto hidden = experiment.hidden_hinges.find(body.name);
+            !believed && hidden != experiment.hidden_hinges.end()) {
+            hang({i, hidden->second}, body.addition.description.pose, added.handle);
+        }
         if (addition.description.motion == Motion::Dynamic) {
             moving.push_back(added.handle);
         }
@@ -133,6 +157,22 @@ void TeleopPlace::hang(const TeleopHinge& hinge, const Pose& body, SessionHandle
     joint.frame.position = to_local(body, hinge.at);
     joint.frame.rotation = glm::conjugate(body.rotation) * Quat(glm::dot(z, half), glm::cross(z, half));
     stop_at(session.add_joint(joint, handle, no_handle).error, "hinge");
+}
+
+void TeleopPlace::act(const TeleopScene& scene, const TeleopCase& experiment, double seconds) {
+    std::map<SessionHandle, Vec3> pushes;
+    for (const TeleopActor& actor : experiment.actors) {
+        const auto acted = std::ranges::find(scene.bodies, actor.body, &TeleopBody::name);
+        stop_at(acted == scene.bodies.end() ? "no body of the scene" : "", actor.body);
+        const SessionHandle body = handles[static_cast<std::size_t>(acted - scene.bodies.begin())];
+        const SessionSnapshot& now = session.snapshot();
+        if (const BodyState* const state = state_of(now.bodies, now.body_count, body)) {
+            pushes[body] += force_of(actor, acted->addition.description.pose.position, *state, seconds);
+        }
+    }
+    for (const auto& [body, push] : pushes) {
+        session.set_body_push(body, push, Vec3(0.0));
+    }
 }
 
 void TeleopPlace::tick(Nanoseconds now) {

@@ -62,6 +62,8 @@ struct TeleopPlace {
     // Bodies that are a ghost only the model has.
     void fill(const TeleopScene& scene, const TeleopCase& experiment, bool believed);
     void tick(Nanoseconds now);
+    // What acts on bodies in the next tick.
+    void act(const TeleopScene& scene, const TeleopCase& experiment, double seconds);
 
     const ProxyState& pointer() const { return session.snapshot().proxies[0]; }
     Pose pose_of(SessionHandle body) const;

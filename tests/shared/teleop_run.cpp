@@ -365,9 +365,13 @@ TeleopFigures TeleopRun::run(TeleopBins* bins) {
         while (next_event < events.size() && to_seconds(now) >= events[next_event].at) {
             happen(events[next_event++]);
         }
+        const double began = static_cast<double>(i) * tick_seconds;
         model_.tick(now);
+        direct_.act(scene_, experiment_, began);
         direct_.tick(now);
+        truth_.act(scene_, experiment_, began);
         if (experiment_.uses_arm) {
+            local_.act(scene_, experiment_, began);
             local_.tick(now);
         }
         tick_far_side(now);

@@ -201,6 +201,36 @@ bool read_event(std::string text, TeleopEvent& event) {
     return true;
 }
 
+// acts.NUMBER=BODY;WHAT=VALUES;…
+bool read_actor(const std::string& text, TeleopActor& actor) {
+    std::istringstream parts(text);
+    std::getline(parts, actor.body, ';');
+    bool is_read = !actor.body.empty();
+    for (std::string part; is_read && std::getline(parts, part, ';');) {
+        const std::size_t equals = std::min(part.find('='), part.size() - 1);
+        const std::string what = part.substr(0, equals);
+        std::string values = part.substr(equals + 1);
+        std::ranges::replace(values, ',', ' ');
+        std::istringstream in(values);
+        if (what == "spring") {
+            in >> actor.stiffness >> actor.damping;
+        } else if (what == "plane") {
+            actor.normal = glm::normalize(read_vector(in));
+            in >> actor.gap;
+        } else if (what == "way") {
+            in >> actor.way >> actor.period;
+        } else if (what == "draft") {
+            actor.draft = read_vector(in);
+        } else if (what == "time") {
+            in >> actor.from >> actor.to;
+        } else {
+            return false;
+        }
+        is_read = has_ended(in);
+    }
+    return is_read && actor.period > 0.0;
+}
+
 // A key that stands for a number, and where it belongs.
 struct NumberWord {
     std::string_view key;
@@ -258,6 +288,11 @@ constexpr NumberWord number_words[] = {
     {"estimate", 0, 1, false, [](TeleopCase& c, double n) { c.settings.estimate.gain = n; }},
     {"residual", 0, 1, false, [](TeleopCase& c, double n) { c.settings.residual.gain = n; }},
     {"residual_margin", 0, 10, false, [](TeleopCase& c, double n) { c.settings.residual.margin = n; }},
+    {"residual_least", 0, 100, false,
+     [](TeleopCase& c, double n) {
+         c.settings.residual.least = n;
+         c.settings.residual.least_turn = 20.0 * n;
+     }},
     {"residual_time", 1e-3, 10, false, [](TeleopCase& c, double n) { c.settings.residual.time = n; }},
     {"fade_window", 0, 1e6, false, [](TeleopCase& c, double n) { c.settings.stealth.window = n; }},
     {"deadband", 0, 1, true, [](TeleopCase& c, double n) { c.settings.deadband.enabled = n != 0.0; }},
@@ -347,6 +382,15 @@ std::string set(const std::string& key, const std::string& value, TeleopCase& c)
     }
     if (key.rfind("event.", 0) == 0) {
         return read_event(value, c.events.emplace_back()) ? "" : "it must be SECONDS,KIND[,BODY or AMOUNT]";
+    }
+    if (key.rfind("acts.", 0) == 0) {
+        return read_actor(value, c.actors.emplace_back())
+                   ? ""
+                   : "it must be BODY;spring=NEWTONS_A_METER,DAMPING;plane=X,Y,Z,GAP;way=METERS,SECONDS;"
+                     "draft=X,Y,Z;time=FROM,TO, of which all but the body may be left out";
+    }
+    if (key.rfind("hinge.", 0) == 0) {
+        return read_vector(value, c.hidden_hinges[key.substr(6)]) ? "" : "it must be X,Y,Z";
     }
     if (key == "object" || key == "rows") {
         (key == "object" ? c.object : c.rows) = value;

@@ -47,6 +47,18 @@ def test_every_way_is_touched_by_the_same_hand():
     assert len({one["path_shift"] for one in keys}) == 1
 
 
+def test_what_else_acts_is_in_the_scene_and_not_in_the_model():
+    grid = DESCRIPTION["grid"]
+    names = teleop_grid.unmodelled(grid, grid["scenes"], ["50", "100", "200"])
+    assert len(names) == len(set(names)) >= 120
+    assert not any(name.startswith("hinge.") and ".joint." in name for name in names)
+    acted = DESCRIPTION | {"grid": grid | {"wrong": grid["unmodelled"]}}
+    for name in names:
+        keys = [teleop_grid._keys(acted, name, one) for one in teleop_grid.WITH_LOSS]
+        acts = [{key: value for key, value in one.items() if key.startswith(teleop_grid.UNMODELLED)} for one in keys]
+        assert acts[0] and acts.count(acts[0]) == len(acts)
+
+
 def test_copies_stand_elsewhere_with_the_same_shapes():
     lines = Scene(DESCRIPTION["scene"]).varied({"copies": {"Other": {"of": "Box", "at": [1, 2, 3]}}}).splitlines()
     of, other = (next(i for i, line in enumerate(lines) if line.startswith(f"body {name} ")) for name in ("Box", "Other"))

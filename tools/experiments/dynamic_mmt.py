@@ -1,7 +1,7 @@
 """Touch of what moves, over a network, with a model that is realistically wrong: how to bring the truth in (thesis 5.4).
 
     ./run experiment dynamic_mmt [--seconds=10] [--delays=0,25,50,100,200,500] [--losses=0,0.1,0.5] [--pictures=1]
-        [--table=1] [--variants=1] [--long=1] [--grid=1] [--grid_scenes=one,three,stack,hinge] [--grid_wrong=all] [--grid_delays=50,100,200]
+        [--table=1] [--variants=1] [--long=1] [--unmodelled=1] [--grid=1] [--grid_scenes=one,three,stack,hinge] [--grid_wrong=all] [--grid_delays=50,100,200]
         [--grid_schemes=default,never_corrected,…] [--grid_losses=0,0.5] [--grid_seeds=6] [--grid_set=KEY=VALUE,KEY=VALUE]
         [--mass=0.8 --friction=1.3 --tilt=1 --moved=0.01 --pose_noise=0.001 --phase=500 --late=50 --jitter=3]
 
@@ -18,7 +18,12 @@ short_history with the usual one of 1.024 s, beyond which moving bodies are corr
 The grid (measuring/teleop_grid.py; grid.csv has a line for each of its cases) asks the default against never correcting,
 pose alone, velocities and traditional touch, over models that are wrong in many ways; grid.unseen.* are the same of models
 that chance has made wrong, by so many seeds (grid_unseen.csv). --table=0, --variants=0 and the options
-of the grid leave out what is not wanted; --grid_set changes the default, with keys of tests/shared/teleop_words.cpp.
+of the grid leave out what is not wanted.
+
+unmodelled.* are the figures of a grid (unmodelled.csv) in which something else acts on the box and no side is told of it: one
+or two other hands, a spring to the world, hidden walls, a draft, a hidden joint.
+
+--grid_set changes the default, with keys of tests/shared/teleop_words.cpp.
 """
 
 import csv
@@ -60,6 +65,7 @@ class Settings(teleop_runs.Imperfections):
     table: bool = options.switch(True)
     variants: bool = options.switch(True)
     long: bool = options.switch(True)
+    unmodelled: bool = options.switch(True)
     grid: bool = options.switch(True)
     grid_scenes: tuple[str, ...] = options.names(None, lambda: teleop_runs.description("dynamic_mmt")["grid"]["scenes"])
     grid_wrong: tuple[str, ...] = options.names(None, lambda: teleop_runs.description("dynamic_mmt")["grid"]["wrong"])
@@ -105,6 +111,8 @@ def run(given: dict[str, str], output: Path) -> dict[str, object]:
         summary |= _variants(description, settings, output)
     if settings.long:
         summary |= _long_delay(description, output)
+    if settings.unmodelled:
+        summary |= _unmodelled(description, settings, output)
     if settings.grid:
         summary |= _grid(description, settings, output)
     return summary
@@ -155,6 +163,15 @@ def _long_delay(description: dict, output: Path) -> dict[str, object]:
     cases = [{"name": f"long_delay.{way}.{LONG_MS}ms", **common, **keys} for way, keys in LONG.items()]
     found = teleop_runs.run(description["scene"], cases, output)
     return {f"{name}.{key}": one[key] for name, one in found.items() for key in LONG_FIGURES}
+
+
+def _unmodelled(description: dict, settings: Settings, output: Path) -> dict[str, object]:
+    grid = description["grid"]
+    acted = description | {"grid": grid | {"wrong": grid["unmodelled"]}}
+    names = teleop_grid.unmodelled(grid, settings.grid_scenes, map(str, settings.grid_delays))
+    found = teleop_grid.run(acted, names, teleop_grid.WITH_LOSS, output, settings.grid_set)
+    _write_grid(output / "unmodelled.csv", found)
+    return teleop_grid.summary(found, "unmodelled.")
 
 
 def _grid(description: dict, settings: Settings, output: Path) -> dict[str, object]:

@@ -32,6 +32,9 @@ DIVERGED_MM = 150.0
 BY_PLACE = "unsynchronised"
 NOISY = {"usual_noise": "usual"}
 
+# Of the scene alone: keys that act on its bodies, or hang them, and that no model is told of.
+UNMODELLED = ("acts.", "hinge.")
+
 Found = dict[str, dict[str, dict]]  # by scheme, by case
 
 
@@ -42,6 +45,18 @@ def cases(grid: dict, scenes: Iterable[str], wrongs: Iterable[str], delays: Iter
         for hand in HANDS
         for wrong in wrongs
         for delay in delays
+    ]
+
+
+def unmodelled(grid: dict, scenes: Iterable[str], delays: Iterable[str]) -> list[str]:
+    """What else acts, in every scene; a body that hangs on a hinge that is known is not hung there again."""
+    kinds, delays = grid["unmodelled"], list(delays)
+    return [
+        name
+        for scene in scenes
+        for kind, how in kinds.items()
+        if not any(key.removeprefix("hinge.") in grid["scenes"][scene].get("hinges", {}) for key in how)
+        for name in cases(grid, [scene], [kind], delays, "0")
     ]
 
 
@@ -85,6 +100,7 @@ def _keys(description: dict, name: str, scheme: str) -> teleop_runs.Case:
     how = dict(description["grid"]["wrong"][wrong])
     if "path_shift" in how:
         keys["path_shift"] = how.pop("path_shift")
+    keys |= {key: how.pop(key) for key in list(how) if key.startswith(UNMODELLED)}
     if scheme == BOUND:
         how = {key: value for key, value in how.items() if key in ("mass", "friction")}
         return keys | _wrong(description, scene, how) | {"known_after_ms": delay.removesuffix("ms")}

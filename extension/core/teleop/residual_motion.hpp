@@ -8,16 +8,16 @@
 //
 // is what else acted. The estimate r follows a with a time constant tau. An error a - r counts as
 // `largest_error` at most: one missed blow is no force. With n independent errors within tau, r is shrunk by
-// 1 - var / (n |r|^2) (James and Stein 1961). Where the states confirm r, it fades: friction that holds a
+// 1 - (var / n + least^2) / |r|^2 (James and Stein 1961); `least` is what rounding and the timing of states
+// may look like. Where the states confirm r, it fades: friction that holds a
 // body at rest would else keep a residual that is no more. It fades, too, where no states come.
 //
 // The model's body gets along n = r / |r|, in each tick of length dt, the velocity
 //
-//     clamp(|r| dt + (w - v . n), 0, (1 + margin) |r| dt)
+//     clamp(|r| dt + min(w, 0) - v . n, 0, (1 + margin) |r| dt)
 //
-// with w the far body's velocity along n, carried on with its own trend. A support that holds a body so holds
-// it against a harder push as well, and gives nothing to a body that is let go: no replay makes a body faster
-// than the far side's was.
+// with w the far body's velocity along n in its last state. So a support that holds a body also holds it
+// against a harder push, and hardly moves a body that is released: a wall springs back for a moment only.
 #pragma once
 
 #include <algorithm>
@@ -34,35 +34,31 @@ struct ResidualSettings {
     double fade = 1.0;            // of what the states confirm (unit: seconds), > 0
     double silence = 0.3;         // without a state for so long it fades within as much (unit: seconds), > 0
     double margin = 0.5;          // more than |r| that holds a body back (share of |r|), >= 0
-    double longest_trend = 0.5;   // for which the far body's own trend is carried on (unit: seconds), >= 0
+    double least = 0.5;           // (unit: meters per second squared), >= 0
+    double least_turn = 10.0;     // (unit: radians per second squared), >= 0
     double largest_error = 20.0;  // (unit: meters per second squared), > 0
     double largest = 100.0;       // |r| (unit: meters per second squared), > 0
     double largest_turn_error = 400.0;  // (unit: radians per second squared), > 0
     double largest_turn = 2000.0;       // (unit: radians per second squared), > 0
 };
 
-// As the model's body gets it: all of a linear velocity, or all of an angular one.
+// Acts on one velocity of the model's body, the linear or the angular one.
 struct Residual {
     Vec3 acceleration{0.0};  // r
-    double speed = 0.0;      // w at time 0
-    double trend = 0.0;      // of w, in a second
+    double speed = 0.0;      // min(w, 0)
     double margin = 0.0;
-    double longest_trend = 0.0;  // (unit: seconds)
 
     bool operator==(const Residual&) const = default;
 };
 
-// The velocity that a body of velocity `velocity` gets within `seconds`, `since` after time 0.
-inline Vec3 residual_step(const Residual& residual, const Vec3& velocity, double since, double seconds) {
+// The velocity that a body of velocity `velocity` gets within `seconds`.
+inline Vec3 residual_step(const Residual& residual, const Vec3& velocity, double seconds) {
     const double size = glm::length(residual.acceleration);
     if (!(size > 0.0)) {
         return Vec3(0.0);
     }
     const Vec3 n = residual.acceleration / size;
-    // What brakes a body does not turn it around.
-    const double carried = residual.speed + residual.trend * std::clamp(since, 0.0, residual.longest_trend);
-    const double allowed = residual.speed < 0.0 ? std::min(carried, 0.0) : carried;
-    const double wanted = size * seconds + allowed - glm::dot(velocity, n);
+    const double wanted = size * seconds + residual.speed - glm::dot(velocity, n);
     return n * std::clamp(wanted, 0.0, (1.0 + residual.margin) * size * seconds);
 }
 
@@ -82,7 +78,6 @@ public:
         mean_ = shortened(mean_ + share * error, largest);
         mean_ *= is_confirmed ? std::max(0.0, 1.0 - lesson.seconds / settings.fade) : 1.0;
         variance_ += share * (glm::dot(error, error) - variance_);
-        trend_ += share * (lesson.truth / lesson.seconds - trend_);
         independent_ = 1.0 + 2.0 * settings.time / lesson.seconds;
         silent_ = 0.0;
     }
@@ -95,24 +90,22 @@ public:
     }
     void forget() { *this = {}; }
 
-    // `velocity`: of the far side's body at time 0.
-    Residual residual(const ResidualSettings& settings, const Vec3& velocity) const {
+    // `velocity`: of the far side's body in its last state.
+    Residual residual(const ResidualSettings& settings, const Vec3& velocity, double least) const {
         const double size2 = glm::dot(mean_, mean_);
-        const double noise2 = independent_ > 0.0 ? variance_ / independent_ : 0.0;
+        const double noise2 = least * least + (independent_ > 0.0 ? variance_ / independent_ : 0.0);
         if (!(size2 > noise2)) {
             return {};
         }
         const Vec3 acceleration = mean_ * (settings.gain * (1.0 - noise2 / size2));
         const Vec3 n = mean_ / std::sqrt(size2);
-        return {acceleration, glm::dot(velocity, n), glm::dot(trend_, n), settings.margin,
-                settings.longest_trend};
+        return {acceleration, std::min(glm::dot(velocity, n), 0.0), settings.margin};
     }
 
 private:
     static constexpr double confirmed = 0.02;  // an error of no more along r (share of |r|)
 
-    Vec3 mean_{0.0};   // r
-    Vec3 trend_{0.0};  // of the far side's velocity, in a second
+    Vec3 mean_{0.0};  // r
     double variance_ = 0.0;
     double independent_ = 0.0;
     double silent_ = 0.0;  // since the last lesson (unit: seconds)
