@@ -363,7 +363,7 @@ void InputReplay::carry_out(const call::EndRecording& c) {
 
 void InputReplay::carry_out(const call::Attach& c) {
     const std::size_t bodies = session_->settings().max_bodies;
-    check(ends_.empty() && c.sides.size() <= max_proxies &&
+    check(ends_.empty() && session_->is_empty() && c.sides.size() <= max_proxies &&
           std::ranges::all_of(c.sides, [&](const SidePlan& plan) { return is_sound(plan, bodies); }));
     if (is_over_) {
         return;

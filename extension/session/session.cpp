@@ -179,13 +179,18 @@ void Session::end_recording(RecorderRing<SessionRecord>& ring) {
 
 void Session::attach(std::unique_ptr<TeleopSide> side) {
     impl_->has_twin = side && side->twin();
-    assert((!impl_->has_twin || impl_->is_empty()) && "attach a side with a twin before anything is added");
+    assert((!impl_->has_twin || is_empty()) && "attach a side that replays before anything is added");
     impl_->hears_tools = side && side->hears_tools();
     impl_->send(command::Attach{std::move(side)});
 }
 
 void Session::attach(const std::vector<LinkEnd>& ends) {
     attach(make_side(settings(), impl_->recorder ? impl_->recorder->tap(ends) : ends));
+}
+
+bool Session::is_empty() const {
+    const Impl& s = *impl_;
+    return !s.bodies.any() && !s.devices.any() && !s.proxies.any() && !s.tools.any() && !s.joints.any();
 }
 
 bool Session::collect() {

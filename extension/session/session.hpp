@@ -170,6 +170,8 @@ public:
     // session makes it, of these ends of links.
     void attach(std::unique_ptr<TeleopSide> side);
     void attach(const std::vector<LinkEnd>& ends);
+    // Neither bodies nor devices, proxies, tools or joints, nor any that the loop may still have.
+    bool is_empty() const;
 
     // Destroys what the loop has given back; call it now and then, as each of Godot's frames does. True while
     // commands are still on their way to the loop.

@@ -22,9 +22,6 @@ namespace tactus {
 struct Session::Impl {
     Impl(const SessionSettings& s, InputRecorder* input_recorder);
 
-    bool is_empty() const {
-        return !bodies.any() && !devices.any() && !proxies.any() && !tools.any() && !joints.any();
-    }
     SessionHandle take_from(HandlePool& pool) { return pool.take(std::exchange(next_handle, no_handle)); }
     void note(const InputCall& call) {
         if (recorder) {

@@ -108,16 +108,18 @@ BodyAddition body(const Shape& shape, const Vec3& place, Motion motion) {
 // A place whose inputs are recorded, in both forms.
 struct Recorded {
     Recorded() {
-        Workspace workspace;
-        workspace.force_limit = 10.0;
-        ProxyDescription pointer;
-        pointer.device = session.add_device(device, workspace).handle;
-        session.add_proxy(pointer);
         ByteSink sink;
         ValueWriter writer(sink);
         const SessionSettings settings = small_session(16, 32);
         pass(writer, settings);
         put(InputPiece::settings, sink.bytes());
+    }
+    void add_hand() {
+        Workspace workspace;
+        workspace.force_limit = 10.0;
+        ProxyDescription pointer;
+        pointer.device = session.add_device(device, workspace).handle;
+        session.add_proxy(pointer);
     }
     void tick() {
         session.tick(now += period);
@@ -153,6 +155,7 @@ struct Recorded {
 
 Bytes touch() {
     Recorded place;
+    place.add_hand();
     place.session.add_body(body(PlaneShape{}, Vec3(0.0), Motion::Static));
     const auto box =
         place.session.add_body(body(BoxShape{Vec3(0.05)}, {0.0, 0.05, 0.0}, Motion::Dynamic)).handle;
@@ -184,6 +187,8 @@ std::vector<Bytes> linked() {
         {{{SidePlan::Kind::environment, {}, shared::endpoint(Side::teleoperator_side, 2), {}, {}},
           &wire.second(),
           far.port}});
+    near.add_hand();
+    far.add_hand();
     const BodyAddition box = body(BoxShape{Vec3(0.05)}, {0.0, 0.05, 0.0}, Motion::Dynamic);
     EnvironmentTeller teller(far.port);
     teller.tell(far.session.add_body(box).handle, "Box", box);

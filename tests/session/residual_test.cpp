@@ -113,14 +113,14 @@ void expect_felt(const Held& held, double least) {
 constexpr double delays[] = {0.0, 0.01, 0.05, 0.1, 0.2};
 
 TEST(Residual, ASpringThatHoldsTheFarBodyIsFelt) {
-    for (const double delay : {0.0, 0.01}) {
+    for (const double delay : delays) {
         SCOPED_TRACE(delay);
         expect_felt(press(delay, spring(1000.0), 0.015), 3.0);
     }
 }
 
 TEST(Residual, AHiddenWallIsFelt) {
-    for (const double delay : {0.0, 0.01}) {
+    for (const double delay : delays) {
         SCOPED_TRACE(delay);
         expect_felt(press(delay, hidden_wall(1e4)), 2.0);
     }
@@ -128,7 +128,7 @@ TEST(Residual, AHiddenWallIsFelt) {
 
 // It holds the box against friction and the hand.
 TEST(Residual, ADraftIsFelt) {
-    for (const double delay : {0.0, 0.01}) {
+    for (const double delay : delays) {
         SCOPED_TRACE(delay);
         Pressing pressing(delay, nullptr);
         pressing.ticks(300);

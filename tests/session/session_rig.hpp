@@ -55,8 +55,12 @@ inline BodyAddition ground() {
 
 class SessionRig {
 public:
-    explicit SessionRig(const SessionSettings& settings = {}, InputRecorder* recorder = nullptr)
+    explicit SessionRig(const SessionSettings& settings = {}, InputRecorder* recorder = nullptr,
+                        std::unique_ptr<TeleopSide> side = nullptr)
         : session(settings, recorder) {
+        if (side) {
+            session.attach(std::move(side));
+        }
         Workspace workspace;
         workspace.force_limit = 1e6;
         hand = session.add_device(device, workspace).handle;

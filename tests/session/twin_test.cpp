@@ -43,6 +43,7 @@ public:
         }
         for (Nanoseconds at = saved_at_; at < now_; at += period) {
             twin_.begin_replay_tick();
+            twin_.proxy(0).hand = loop_->proxy(0).hand;  // it stays where it is
             twin_.end_replay_tick(at + period);
         }
         return true;
@@ -66,11 +67,9 @@ private:
 };
 
 struct Twins {
-    Twins() : rig(small()) {
-        auto made = std::make_unique<Replaying>();
-        side = made.get();
-        rig.device.position = {5.0, 1.0, 5.0};  // away: the twin does not know it
-        rig.session.attach(std::move(made));
+    explicit Twins(std::unique_ptr<Replaying> made = std::make_unique<Replaying>())
+        : side(made.get()), rig(small(), nullptr, std::move(made)) {
+        rig.device.position = {5.0, 1.0, 5.0};  // of all bodies
         rig.tick();
         rig.add(ground());
         for (int i = 0; i < 4; ++i) {
@@ -94,8 +93,8 @@ struct Twins {
         }
     }
 
+    Replaying* side;  // the session's
     SessionRig rig;
-    Replaying* side = nullptr;  // the session's
     std::vector<SessionHandle> boxes;
 };
 

@@ -202,6 +202,18 @@ double longest_until_right(const std::vector<TeleopRow>& rows) {
     return longest;
 }
 
+// How long at a time the object is farther from where it is at the far side than the boxes of the dynamic
+// testbed are long (unit: seconds).
+double longest_lost(const std::vector<TeleopRow>& rows) {
+    constexpr double edge = 0.15;
+    std::size_t longest = 0, now = 0;
+    for (const TeleopRow& row : rows) {
+        now = row.far_known ? (row.box_error > edge ? now + 1 : 0) : now;  // a sample may be left out
+        longest = std::max(longest, now);
+    }
+    return static_cast<double>(longest) * tick_seconds;
+}
+
 // How one figure of all ticks spreads.
 class Spread {
 public:
@@ -437,6 +449,7 @@ TeleopFigures evaluate(std::vector<TeleopRow>& rows, const TeleopCase& experimen
         }
         figures["box_rotation_error_rms_deg"] = 57.29577951308232 * turn.rms();
         figures["box_right_after_letting_go_s"] = longest_until_right(rows);
+        figures["box_lost_longest_s"] = longest_lost(rows);
     }
     return figures;
 }

@@ -81,3 +81,13 @@ def test_errors_that_nobody_tells_apart_are_not_worse():
     assert not teleop_grid.is_worse("one.arm.heavy.50ms.0pct", one(0.1005), one(0.1))
     assert teleop_grid.is_worse("one.arm.heavy.50ms.0pct", one(0.102), one(0.1))
     assert teleop_grid.is_worse("one.arm.heavy.50ms.0pct", one(float("nan")), one(0.1))
+
+
+def test_a_body_that_comes_back_within_the_delay_is_not_lost():
+    def is_lost(name: str, seconds: float) -> bool:
+        return teleop_grid.is_lost(name, {"box_lost_longest_s": seconds})
+
+    assert not is_lost("one.arm.heavy.200ms.0pct", 0.25)
+    assert is_lost("one.arm.heavy.50ms.0pct", 0.25)
+    assert is_lost("one.arm.heavy.200ms.0pct", 0.31)
+    assert is_lost("one.arm.heavy.200ms.0pct", float("nan"))

@@ -27,6 +27,9 @@ SAME_FORCE = 1e-3
 SAME_PLACE = 0.01
 # A body farther from where it is than its own edge is long has nothing to do with it any more (millimetres).
 DIVERGED_MM = 150.0
+# It is lost where it is so far off for longer than the delay there and back and this (seconds): a state has come since, and
+# has not brought it back. What no side is told of moves a body 0.2 m within a delay of 200 ms at 1 m/s, whatever corrects it.
+LOST_S = 0.1
 # A right model whose sides are not synchronised (thesis figure 5.5) is judged by where its bodies are: its force is that
 # of a right model as long as nothing corrects it.
 BY_PLACE = "unsynchronised"
@@ -159,6 +162,7 @@ def figures(results: dict[str, dict], never: dict[str, dict]) -> dict[str, objec
         "worse_than_never_corrected": len(worse),
         "worse_by_most": max(worse, key=lambda n: results[n]["force_error_mean_N"] - never[n]["force_error_mean_N"], default=""),
         "diverged": sum(has_diverged(one) for one in results.values()),
+        "lost": sum(is_lost(name, one) for name, one in results.items()),
         "force_error_over_never_corrected_median": percentile(ratios, 0.5),
         "force_error_over_never_corrected_p95": percentile(ratios, 0.95),
         "force_error_over_never_corrected_max": max(ratios, default=0.0),
@@ -198,6 +202,11 @@ def is_worse(name: str, one: dict[str, float], never: dict[str, float]) -> bool:
 
 def has_diverged(one: dict[str, float]) -> bool:
     return not (one["box_position_error_max_mm"] <= DIVERGED_MM and math.isfinite(one["force_error_mean_N"]))
+
+
+def is_lost(name: str, one: dict[str, float]) -> bool:
+    delay = float(name.split(".")[3].removesuffix("ms")) / 1e3
+    return not one["box_lost_longest_s"] <= delay + LOST_S
 
 
 def percentile(values: list[float], share: float) -> float:

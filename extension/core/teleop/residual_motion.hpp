@@ -34,8 +34,8 @@ struct ResidualSettings {
     double fade = 1.0;            // of what the states confirm (unit: seconds), > 0
     double silence = 0.3;         // without a state for so long it fades within as much (unit: seconds), > 0
     double margin = 0.5;          // more than |r| that holds a body back (share of |r|), >= 0
-    double least = 0.5;           // (unit: meters per second squared), >= 0
-    double least_turn = 10.0;     // (unit: radians per second squared), >= 0
+    double least = 2.0;           // (unit: meters per second squared), >= 0
+    double least_turn = 40.0;     // (unit: radians per second squared), >= 0
     double largest_error = 20.0;  // (unit: meters per second squared), > 0
     double largest = 100.0;       // |r| (unit: meters per second squared), > 0
     double largest_turn_error = 400.0;  // (unit: radians per second squared), > 0
