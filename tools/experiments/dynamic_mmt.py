@@ -20,8 +20,8 @@ pose alone, velocities and traditional touch, over models that are wrong in many
 that chance has made wrong, by so many seeds (grid_unseen.csv). --table=0, --variants=0 and the options
 of the grid leave out what is not wanted.
 
-unmodelled.* are the figures of a grid (unmodelled.csv) in which something else acts on the box and no side is told of it: one
-or two other hands, a spring to the world, hidden walls, a draft, a hidden joint.
+unmodelled.* are the figures of another grid (unmodelled.csv; left out by --unmodelled=0 or --grid=0), in which something else
+acts on the box and no side is told of it: one or two other hands, a spring to the world, hidden walls, a draft, a hidden joint.
 
 --grid_set changes the default, with keys of tests/shared/teleop_words.cpp.
 """
@@ -111,7 +111,7 @@ def run(given: dict[str, str], output: Path) -> dict[str, object]:
         summary |= _variants(description, settings, output)
     if settings.long:
         summary |= _long_delay(description, output)
-    if settings.unmodelled:
+    if settings.grid and settings.unmodelled:
         summary |= _unmodelled(description, settings, output)
     if settings.grid:
         summary |= _grid(description, settings, output)
