@@ -211,6 +211,11 @@ void JointTable::join_group(JPH::Body& body) {
 }
 
 bool JointTable::CanCollide(const JPH::CollisionGroup& a, const JPH::CollisionGroup& b) const {
+    // The world has no group of its own, nor has a body in no joint: both would seem to be joined.
+    constexpr JPH::CollisionGroup::GroupID none = JPH::CollisionGroup::cInvalidGroup;
+    if (a.GetGroupID() == none || b.GetGroupID() == none) {
+        return true;
+    }
     return std::none_of(joints_.begin(), joints_.end(), [&a, &b](const Joint& joint) {
         return joint.constraint != nullptr && !joint.bodies_collide &&
                ((joint.first == a.GetGroupID() && joint.second == b.GetGroupID()) ||

@@ -212,6 +212,46 @@ TEST(Joint, JoinedBodiesOverlapUnlessToldToCollide) {
     }
 }
 
+// The world has no shapes: a joint with it takes no collision away.
+TEST(Joint, WhatHangsFromTheWorldCollidesWithWhatIsInNoJoint) {
+    Door door(JointRange::free());
+    const BodyId thrown = add(door.world, ball(0.1, {0.7, 1.0, 1.0}, 1.0));
+    door.world.set_velocity(thrown, {0.0, 0.0, -2.0}, Vec3(0.0));
+    double nearest = 1.0;
+    for (int i = 0; i < 600; ++i) {
+        run(door.world, 1);
+        nearest = std::min(nearest, to_local(door.world.pose(door.id), door.world.pose(thrown).position).z);
+    }
+    EXPECT_NEAR(nearest, 0.1 + 0.02, 2e-3);
+    EXPECT_GT(heading(door.world.pose(door.id)), 0.01);
+}
+
+TEST(Joint, AHungDoorStopsAtAWall) {
+    Door door(JointRange::free());
+    BodyDescription wall = box({0.2, 2.0, 0.2}, {0.7, 1.0, -0.3}, 1.0);
+    wall.motion = Motion::Static;
+    add(door.world, wall);
+    for (int i = 0; i < 1500; ++i) {
+        door.world.apply_force(door.id, {0.0, 0.0, -5.0},
+                               to_parent(door.world.pose(door.id), {0.3, 0.0, 0.0}));
+        run(door.world, 1);
+        EXPECT_LT(heading(door.world.pose(door.id)), 0.4) << i;
+    }
+}
+
+TEST(Joint, APinnedBallRestsOnTheFloorBelowIt) {
+    PhysicsWorld world;
+    add(world, ground());
+    const BodyId id = add(world, ball(0.1, {1.0, 0.5, 0.0}, 1.0));
+    JointDescription pin;
+    pin.frame.position = {-1.0, 0.0, 0.0};
+    ASSERT_TRUE(world.add_joint(pin, id, BodyId{}).valid());
+    for (int i = 0; i < 1500; ++i) {
+        run(world, 1);
+        EXPECT_GT(world.pose(id).position.y, 0.095) << i;
+    }
+}
+
 TEST(Joint, RemovedJointLetsGo) {
     PhysicsWorld world;
     const BodyId id = add(world, ball(0.05, Vec3(0.0), 1.0));
