@@ -87,8 +87,8 @@ func _run_script(of_class: StringName, example: String) -> Node:
 		node = script.new()
 		world.add_child(node)
 	add_child(scene)
-	for _i in 6:
-		world.advance(0.1)
+	for _i in 36:
+		world.advance(1.0 / 60.0)
 		await frames(1)
 	return node
 
