@@ -40,6 +40,12 @@ setsid sleep 1000 &
 sleep 1000"""
 
 
+def _hear_all() -> None:
+    """What was started in the background, or by nohup, begins deaf to these, and so does all that it starts."""
+    for number in (signal.SIGINT, signal.SIGHUP, signal.SIGTERM):
+        signal.signal(number, signal.SIG_DFL)
+
+
 class Clone:
     def __init__(self, folder: Path):
         self.folder, self.programs = folder / "clone", folder / "programs"
@@ -93,7 +99,7 @@ class Clone:
         started.unlink(missing_ok=True)
         process = subprocess.Popen(
             [*(within or []), self.folder / "run", *words], cwd=self.folder, env=self.environment | {"WAITS": waits}, stdin=subprocess.DEVNULL,
-            stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, start_new_session=True,
+            stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, start_new_session=True, preexec_fn=_hear_all,
         )  # fmt: skip
         until = time.monotonic() + 60.0
         while not started.is_file() and process.poll() is None and time.monotonic() < until:
