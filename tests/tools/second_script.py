@@ -139,7 +139,7 @@ def linked_touch(path: Path, seconds: float, delay_ms: float, traditional: bool)
     found["seconds_until_right"] = 0.0 if touched is None else max(0.0, 1e-6 * (wrong - touched))
     answered = [row for row in rows if not math.isnan(row["box_error_m"])]
     found["hand_position_error_rms_mm"] = 1e3 * root_mean_square([row["far_hand_error_m"] for row in answered])
-    return found | of_the_box(answered)
+    return found | of_the_box(answered) | {"box_lost_longest_s": 1e-3 * longest_above(0.15, [row["box_error_m"] for row in answered])}
 
 
 def of_the_box(rows: list[dict[str, float]]) -> dict[str, float]:
@@ -149,6 +149,14 @@ def of_the_box(rows: list[dict[str, float]]) -> dict[str, float]:
     found |= {"box_position_error_rms_mm": root_mean_square(off), "box_position_error_final_mm": off[-1]}
     found["box_rotation_error_rms_deg"] = math.degrees(root_mean_square([row["box_rotation_error_rad"] for row in rows]))
     return found | {f"{which}_final_{axis}": rows[-1][f"{which}_{axis}"] for which in ("model", "truth") for axis in "xyz"}
+
+
+def longest_above(limit: float, values: list[float]) -> int:
+    longest = now = 0
+    for value in values:
+        now = now + 1 if value > limit else 0
+        longest = max(longest, now)
+    return longest
 
 
 def root_mean_square(values: list[float]) -> float:

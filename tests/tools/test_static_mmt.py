@@ -45,7 +45,7 @@ def test_a_wrong_model_is_as_wrong_at_any_delay_and_in_any_turn(found):
 
 def test_a_wrong_model_is_right_soon_after_the_first_contact(found):
     assert 0.0 < found["mmt_wrong_corrected_100ms"]["seconds_until_right"] < 2.0
-    assert found["growth"]["mmt_wrong_corrected_100ms.force_error_last_turn_over_first"] == 0.0
+    assert found["growth"]["mmt_wrong_corrected_100ms.force_error_last_turn_over_first"] < 1e-9  # what rounding leaves
 
 
 def test_the_sphere_of_the_wrong_model_is_met_earlier():
