@@ -105,7 +105,7 @@ def _processes(count: int) -> Iterator:
     # and processes that this one starts inherit its signal mask: a terminal's interrupt reaches this program alone.
     resource_tracker.ensure_running()  # it unblocks the interrupt in the thread that starts it
     with ThreadPoolExecutor(1, initializer=signal.pthread_sigmask, initargs=(signal.SIG_BLOCK, {signal.SIGINT})) as starter:
-        starting = starter.submit(LocalCluster, n_workers=count, threads_per_worker=1, dashboard_address="127.0.0.1:0", silence_logs=logging.CRITICAL)
+        starting = starter.submit(LocalCluster, n_workers=count, threads_per_worker=1, dashboard_address="127.0.0.1:0", silence_logs=logging.CRITICAL + 1)
         try:
             local = starting.result()
         except KeyboardInterrupt:
