@@ -113,8 +113,8 @@ void BodyTwin::stand_at(Session& session, const BodyPlace& now) {
     }
 }
 
-// Where only corners of its meshes have moved, or what it gives by is made otherwise, the twin stays and
-// takes the new form: whoever touches it is taken along.
+// Where only corners of its meshes have moved, or a soft body is of another material, the twin stays and
+// takes the new form: proxies that touch it are taken along.
 bool BodyTwin::deform(Session& session, Job& job) {
     const BodyAddition& now = job.built.addition;
     if (handle_ == no_handle || !job.built.buildable || !job.built.body.error.empty() ||

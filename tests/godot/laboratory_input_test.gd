@@ -15,15 +15,7 @@ var _folder := ProjectSettings.globalize_path("user://laboratory_%d" % OS.get_pr
 
 func _exit_tree() -> void:
 	if DirAccess.dir_exists_absolute(_folder):
-		_remove(_folder)
-
-
-func _remove(folder: String) -> void:
-	for inner in DirAccess.get_directories_at(folder):
-		_remove(folder.path_join(inner))
-	for file in DirAccess.get_files_at(folder):
-		DirAccess.remove_absolute(folder.path_join(file))
-	DirAccess.remove_absolute(folder)
+		remove_folder(_folder)
 
 
 func _run(more: Array) -> int:

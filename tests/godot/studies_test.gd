@@ -12,18 +12,7 @@ var _folder := ProjectSettings.globalize_path("user://studies_%d" % OS.get_proce
 
 func _exit_tree() -> void:
 	if DirAccess.dir_exists_absolute(_folder):
-		_remove(_folder)
-
-
-func _remove(folder: String) -> void:
-	for inner in DirAccess.get_directories_at(folder):
-		_remove(folder.path_join(inner))
-	var here := DirAccess.open(folder)
-	if here != null:
-		here.include_hidden = true
-		for file in here.get_files():
-			DirAccess.remove_absolute(folder.path_join(file))
-	DirAccess.remove_absolute(folder)
+		remove_folder(_folder)
 
 
 func _open(scene: String, settings := {}) -> Node:

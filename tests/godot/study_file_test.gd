@@ -8,17 +8,7 @@ var _folder := ProjectSettings.globalize_path("user://study_file_%d" % OS.get_pr
 
 func _exit_tree() -> void:
 	if DirAccess.dir_exists_absolute(_folder):
-		_remove(_folder)
-
-
-func _remove(folder: String) -> void:
-	var here := DirAccess.open(folder)
-	here.include_hidden = true
-	for inner in here.get_directories():
-		_remove(folder.path_join(inner))
-	for file in here.get_files():
-		DirAccess.remove_absolute(folder.path_join(file))
-	DirAccess.remove_absolute(folder)
+		remove_folder(_folder)
 
 
 func _begin(lock_lasts := StudyFile.LOCK_LASTS) -> StudyFile:

@@ -59,3 +59,16 @@ func until(condition: Callable, seconds: float) -> bool:
 			return false
 		await get_tree().process_frame
 	return true
+
+
+## With all that is in it, hidden files too.
+func remove_folder(folder: String) -> void:
+	var here := DirAccess.open(folder)
+	if here == null:
+		return
+	here.include_hidden = true
+	for inner in here.get_directories():
+		remove_folder(folder.path_join(inner))
+	for file in here.get_files():
+		DirAccess.remove_absolute(folder.path_join(file))
+	DirAccess.remove_absolute(folder)

@@ -112,7 +112,7 @@ struct TeleopCase {
     std::vector<TeleopEvent> events;
     std::vector<TeleopActor> actors;  // of the scene, unknown to the model
     std::map<std::string, Vec3>
-        hidden_hinges;  // likewise, by body: about y, here in the world (unit: meters)
+        hidden_hinges;  // unknown to the model, by body: about y, here in the world (unit: meters)
     double measured_from = 0.0, measured_to = 1e9;  // ticks that count as felt excess (unit: seconds)
     std::optional<double>
         known_after;     // the figures are those of a way that is right so long after the first

@@ -121,11 +121,10 @@ TEST(BodyTwin, MovedCornersAreADeformationOfTheSameTwin) {
     EXPECT_NE(twin.revision(), revision) << "it is to be described anew";
 }
 
-BodyPlan soft_plan(double stiffness, int cells = 4) {
+BodyPlan soft_plan(double stiffness) {
     SoftDescription description;
     description.source = std::make_shared<TriangleSource>([] { return sheet(4, 0.0); }, 32u);
     description.form = SoftDescription::Form::sheet;
-    description.cells = cells;
     description.material.stiffness = stiffness;
     BodyPlan plan;
     plan.form.soft = std::make_shared<SoftPlan>(std::move(description));
@@ -136,15 +135,10 @@ BodyPlan soft_plan(double stiffness, int cells = 4) {
 TEST(BodyTwin, WhatGivesStaysTheSameTwinWhenItIsMadeOfAnotherMaterial) {
     Scene scene;
     BodyTwin twin;
-    scene.add(twin, soft_plan(1e4));
-    scene.workers.wait();
-    twin.take_ready(scene.session, 1);
+    ASSERT_TRUE(scene.add(twin, soft_plan(1e4)));
     const SessionHandle handle = twin.handle();
-    ASSERT_NE(handle, no_handle);
     const std::uint64_t revision = twin.revision();
     EXPECT_FALSE(scene.add(twin, soft_plan(2e4)));
-    scene.workers.wait();
-    EXPECT_FALSE(twin.take_ready(scene.session, 2));
     EXPECT_EQ(twin.handle(), handle);
     EXPECT_NE(twin.revision(), revision);
 }
@@ -152,12 +146,9 @@ TEST(BodyTwin, WhatGivesStaysTheSameTwinWhenItIsMadeOfAnotherMaterial) {
 TEST(BodyTwin, WhatGivesIsAnotherTwinInAnotherForm) {
     Scene scene;
     BodyTwin twin;
-    scene.add(twin, soft_plan(1e4));
-    scene.workers.wait();
-    twin.take_ready(scene.session, 1);
+    ASSERT_TRUE(scene.add(twin, soft_plan(1e4)));
     const std::uint64_t revision = twin.revision();
-    BodyPlan plan = box_plan(Motion::Static);
-    EXPECT_TRUE(scene.add(twin, plan));
+    EXPECT_TRUE(scene.add(twin, box_plan(Motion::Static)));
     EXPECT_NE(twin.revision(), revision);
     EXPECT_EQ(twin.addition().soft, nullptr);
 }
