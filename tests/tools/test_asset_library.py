@@ -2,8 +2,10 @@
 
 import io
 import json
+import os
 import subprocess
 import zipfile
+from pathlib import Path
 
 import addon
 import asset_library
@@ -33,10 +35,17 @@ def test_the_entry_has_every_field_and_its_pictures(tmp_path):
         assert Image.open(tmp_path / preview).width >= 640
 
 
-def zip_of_the_repository() -> zipfile.ZipFile:
-    made = subprocess.run(["git", "stash", "create"], cwd=CLONE, text=True, capture_output=True, check=True).stdout.strip()
-    command = ["git", "archive", "--format=zip", "--prefix=tactus/", made or "HEAD"]
-    return zipfile.ZipFile(io.BytesIO(subprocess.run(command, cwd=CLONE, capture_output=True, check=True).stdout))
+def zip_of_the_repository(folder: Path) -> zipfile.ZipFile:
+    """What is tracked as it lies in the clone, packed from an index of its own: other commands may hold the clone's."""
+    settings = {**os.environ, "GIT_INDEX_FILE": str(folder / "index")}
+
+    def git(*words: str) -> bytes:
+        return subprocess.run(["git", *words], cwd=CLONE, env=settings, capture_output=True, check=True).stdout
+
+    git("read-tree", "HEAD")
+    git("add", "--update")
+    tree = git("write-tree").decode().strip()
+    return zipfile.ZipFile(io.BytesIO(git("archive", "--format=zip", "--prefix=tactus/", tree)))
 
 
 @pytest.fixture(scope="module")
@@ -44,7 +53,7 @@ def repository(tmp_path_factory):
     if not (CLONE / ".git").exists():
         pytest.skip("this is no clone but a zip of one")
     folder = tmp_path_factory.mktemp("project")
-    with zip_of_the_repository() as archive:
+    with zip_of_the_repository(tmp_path_factory.mktemp("index")) as archive:
         archive.extractall(folder)
     return folder
 
