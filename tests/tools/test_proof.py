@@ -1,6 +1,7 @@
 """./run proof, each part of it in short, and whether it tells of what there is to tell."""
 
 import json
+import re
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +10,7 @@ import pytest
 
 from proof import faults, fuzz, loop, page, soak
 from setup import cache
+from testing import words
 
 PLAIN = fuzz.Settings(driver="plain", workers=1)
 
@@ -41,6 +43,15 @@ def test_a_target_in_short(target, tmp_path):
 def test_what_was_found_once_is_kept_in_its_targets_folder():
     kept = cache.clone() / "tests/fuzz/found"
     assert {path.name for path in kept.iterdir()} <= set(fuzz.CASES) if kept.is_dir() else True
+
+
+def test_the_page_is_as_it_would_be_written():
+    """But for its figures: sentences that are edited on the page alone would be lost with the next run."""
+    # A number, and a figure that was not measured, are of the run.
+    plain = re.compile(r"\d|not run")
+    written = [one for one in words.of_markdown("", page.text({})).sentences() if not plain.search(one)]
+    there = set(words.of_markdown("", page.PAGE.read_text()).sentences())
+    assert len(written) > 15 and not [one for one in written if one not in there]
 
 
 def test_by_the_front_door_it_leaves_its_figures(tmp_path, capsys):

@@ -51,9 +51,9 @@ def _summary(figures: dict) -> str:
     head = ["What", "wanted", "found"]
     return f"""# What has been done to break it
 
-`./run proof` does what `./run test` has no time for, and writes this page: bytes that nobody has thought of, hours of everything coming and
-going, deadlines beside cyclictest, and what goes wrong around a scene while a hand touches it. Every part also runs by itself
-(`./run proof --only=fuzz`, `./run proof --only=faults`, …), and `./run test` plays a short form of each.
+`./run proof` runs what `./run test` has no time for, and writes this page. It tries random bytes, hours of everything coming and going, deadlines
+beside cyclictest, and faults around a scene while a hand touches it. Every part also runs by itself (`./run proof --only=fuzz`,
+`./run proof --only=faults`, …), and `./run test` plays a short form of each.
 
 {_table(head, rows)}"""
 
@@ -73,11 +73,12 @@ def _fuzz(figures: dict) -> str:
 
     ./run proof --only=fuzz.packets
 
-A target is a function of bytes (`tests/fuzz/`). libFuzzer changes them and keeps what reaches other code (*reached* counts places and how often);
-the address and undefined-behaviour sanitizers watch, and so do claims of the target itself: what was believed of a packet says the same when it is sent again,
-a hull is closed, what a scene shows is a number. libFuzzer comes with the clang that builds the targets, and plays them in one process, where AFL++ begins or forks one for each
-input. A crash is an input that ends the program; a hang one that takes more than {fuzz.LONGEST:.0f} s of a processor. Both are kept, and what has been found once is
-played by every later run (`tests/fuzz/found/`). Where there is no clang, another driver plays the same targets blindly; that is what `./run test` does.
+A target is a function of bytes (`tests/fuzz/`). The tool libFuzzer changes them and keeps those that reach other code (*reached* counts places and
+how often). The address and undefined-behavior sanitizers check each run, and so do assertions of the target itself. Examples are that an accepted
+packet is the same when it is sent again, that a hull is closed, and that a scene shows finite numbers. The clang that builds the targets brings
+libFuzzer, which plays them in one process, where AFL++ begins or forks one for each input. A crash is an input that ends the program; a hang one that
+takes more than {fuzz.LONGEST:.0f} s of a processor. Both are kept, and what has been found once is played by every later run (`tests/fuzz/found/`). Where there is no
+clang, another driver plays the same targets blindly; that is what `./run test` does.
 
 {_table(head, rows)}"""
 
@@ -120,12 +121,12 @@ def _loop(figures: dict) -> str:
 
     ./run proof --only=loop
 
-When a tick begins after its deadline, while a hand pushes boxes about, beside cyclictest at the same period, priority and processor, in turns of ten seconds; idle,
-and with an ordinary process that never rests on each processor. On {where}.
+The table shows how late ticks begin while a hand pushes boxes about. In turns of ten seconds, cyclictest runs at the same period, priority and
+processor. *Loaded* is with an ordinary process that never rests on each processor. On {where}.
 
 {_table(head, rows)}
-A virtual machine's host takes a processor away now and then, and a few such pauses in the turns of one of the two decide the ratio: run again and
-again on the machine of 23 November 2026 it was 0.93 and 0.20 idle, 2.16, 0.17 and 0.05 loaded. Below 1 is no merit of the loop's, and 1.2 is not shown there.
+A virtual machine's host takes a processor away now and then, and a few such pauses in the turns of one of the two decide the ratio. Repeated runs on
+the machine of 23 November 2026 had 0.93 and 0.20 idle, and 2.16, 0.17 and 0.05 loaded. Below 1 is no merit of the loop's, and 1.2 is not shown there.
 {_picture("proof_lateness.png", "How late ticks begin")}"""
 
 
