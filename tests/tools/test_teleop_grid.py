@@ -91,3 +91,14 @@ def test_a_body_that_comes_back_within_the_delay_is_not_lost():
     assert is_lost("one.arm.heavy.50ms.0pct", 0.25)
     assert is_lost("one.arm.heavy.200ms.0pct", 0.31)
     assert is_lost("one.arm.heavy.200ms.0pct", float("nan"))
+
+
+def test_an_error_of_nothing_without_noise_has_no_ratio():
+    results = {
+        "one.scripted.usual_noise.50ms.0pct": {"force_error_mean_N": 0.02},
+        "one.scripted.usual.50ms.0pct": {"force_error_mean_N": 0.01},
+        "stack.scripted.usual_noise.50ms.0pct": {"force_error_mean_N": 0.0},
+        "stack.scripted.usual.50ms.0pct": {"force_error_mean_N": 0.0},
+        "hinge.scripted.usual_noise.50ms.0pct": {"force_error_mean_N": 0.3},
+    }
+    assert teleop_grid._noise_ratios(results) == [2.0]

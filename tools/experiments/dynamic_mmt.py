@@ -185,16 +185,16 @@ def _grid(description: dict, settings: Settings, output: Path) -> dict[str, obje
         drawn = teleop_grid.drawn(settings.grid_seeds)
         unseen = description | {"grid": grid | {"wrong": drawn}}
         found = teleop_grid.run(unseen, teleop_grid.cases(grid, scenes, drawn, delays, "0"), [*schemes, teleop_grid.BOUND], output, more)
-        summary |= teleop_grid.summary(found, "grid.unseen.")
         _write_grid(output / "grid_unseen.csv", found)
+        summary |= teleop_grid.summary(found, "grid.unseen.")
     for loss in map(_percent, settings.grid_losses):
         names = teleop_grid.cases(grid, scenes, wrongs, delays, loss)
         # With losses, the default is asked against what it has to beat there.
         asked = [*schemes, teleop_grid.BOUND] if loss == "0" else [one for one in schemes if one in teleop_grid.WITH_LOSS]
         found = teleop_grid.run(description, names, asked, output, more)
         prefix = "grid." if loss == "0" else f"grid.loss_{loss}pct."
-        summary |= teleop_grid.summary(found, prefix)
         _write_grid(output / ("grid.csv" if loss == "0" else f"grid_loss_{loss}pct.csv"), found)
+        summary |= teleop_grid.summary(found, prefix)
     return summary
 
 

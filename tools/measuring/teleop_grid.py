@@ -179,12 +179,7 @@ def figures(results: dict[str, dict], never: dict[str, dict]) -> dict[str, objec
         found[f"{key}_p95"] = pooled_percentile(pooled, 0.95)
         found[f"{key}_p99"] = pooled_percentile(pooled, 0.99)
         found[f"{key}_max"] = max(one[f"{key}_max"] for one in results.values())
-    noisy = [
-        one["force_error_mean_N"] / results[name.replace(f".{wrong}.", f".{NOISY[wrong]}.")]["force_error_mean_N"]
-        for name, one in results.items()
-        if (wrong := name.split(".")[2]) in NOISY and name.replace(f".{wrong}.", f".{NOISY[wrong]}.") in results
-    ]
-    if noisy:
+    if noisy := _noise_ratios(results):
         found["force_error_with_pose_noise_over_without_median"] = percentile(noisy, 0.5)
         found["force_error_with_pose_noise_over_without_max"] = max(noisy)
     adrift = [one["box_position_error_final_mm"] for name, one in results.items() if name.split(".")[2] == BY_PLACE]
@@ -192,6 +187,14 @@ def figures(results: dict[str, dict], never: dict[str, dict]) -> dict[str, objec
         found["unsynchronised.box_position_error_final_median_mm"] = percentile(adrift, 0.5)
         found["unsynchronised.box_position_error_final_max_mm"] = max(adrift)
     return found
+
+
+def _noise_ratios(results: dict[str, dict]) -> list[float]:
+    """Force errors with noise over those without. The bound may have none."""
+    noisy = [(name, wrong) for name in results if (wrong := name.split(".")[2]) in NOISY]
+    pairs = [(results[name], results.get(name.replace(f".{wrong}.", f".{NOISY[wrong]}."))) for name, wrong in noisy]
+    errors = [(one["force_error_mean_N"], without["force_error_mean_N"]) for one, without in pairs if without is not None]
+    return [error / without for error, without in errors if without > 0.0]
 
 
 def is_worse(name: str, one: dict[str, float], never: dict[str, float]) -> bool:
