@@ -215,7 +215,8 @@ void DriverWork::run_open() {
         }
         if (std::string advice = driver_->advice(); advice != told) {
             told = advice;
-            tell(advice.empty() ? DriverHealth::Phase::running : DriverHealth::Phase::waiting_for_user,
+            const bool is_ready = advice.empty();
+            tell(is_ready ? DriverHealth::Phase::running : DriverHealth::Phase::waiting_for_user,
                  std::move(advice));
         }
     }

@@ -47,6 +47,39 @@ TEST(DriverDevice, TheWatchdogSleepsWhileADeviceThatHasGoneIsClosed) {
     EXPECT_LT(used, GoesUnderForce::closing / 2);
 }
 
+// Has to be shown once where it is.
+class NeedsItsUser final : public Driver {
+public:
+    explicit NeedsItsUser(const std::atomic<bool>& is_shown) : is_shown_(is_shown) {}
+
+    std::string open(const std::atomic<bool>&) override { return {}; }
+    void close() override {}
+    Exchange exchange(ForceSlot&, Nanoseconds, DriverReading& reading) override {
+        SleepTimer().sleep_until(monotonic_now() + one_tick);
+        reading.sample.connected = is_shown_;
+        reading.at = monotonic_now();
+        return Exchange::reading;
+    }
+    DeviceCapabilities capabilities() const override { return {}; }
+    std::string id() const override { return "lost"; }
+    std::string advice() const override { return is_shown_ ? "" : "show it where it is, once more"; }
+
+private:
+    const std::atomic<bool>& is_shown_;
+};
+
+// It said that it is running, where arguments are computed from the right.
+TEST(DriverDevice, WaitsForItsUserUntilNothingIsLeftToDo) {
+    std::atomic<bool> is_shown{false};
+    DriverDevice device(std::make_unique<NeedsItsUser>(is_shown));
+    device.set_pace({100 * one_tick, true});
+    EXPECT_TRUE(wait_until([&] { return device.health().phase == DriverHealth::Phase::waiting_for_user; }));
+    EXPECT_EQ(device.health().text, "show it where it is, once more");
+    is_shown = true;
+    EXPECT_TRUE(wait_until([&] { return device.health().phase == DriverHealth::Phase::running; }));
+    EXPECT_NE(device.health().text.find("gives no force"), std::string::npos) << device.health().text;
+}
+
 // What a device feels, whose driver is so late with a force that the watchdog has taken it away already, and
 // then hangs.
 struct LateForce {
