@@ -32,9 +32,12 @@ void check(bool right) {
 }
 
 void* tick(void*) {
-    while (device.ticks) {
+    for (int waited = -device.start_time; device.ticks; ++waited) {
         const timespec span{0, 1'000'000};
         nanosleep(&span, nullptr);
+        if (waited < 0 || !device.ticks) {
+            continue;
+        }
         for (const Task& task : tasks) {
             if (task.callback != nullptr && !device.hangs && !device.lying.is_silent()) {
                 task.callback(task.data);

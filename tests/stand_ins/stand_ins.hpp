@@ -85,6 +85,7 @@ struct OpenHaptics {
     Lying lying;
     std::atomic<bool> is_open{false}, ticks{false};
     std::atomic<int> frames{0}, stops{0};
+    std::atomic<int> start_time{0};      // of its scheduler, until its first tick (unit: milliseconds)
     std::atomic<double> most_step{0.0};  // of the force from one frame to the next (unit: newtons)
     std::atomic<int> wrong_calls{0};     // outside of a frame, of another device, unknown names
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
@@ -47,6 +48,7 @@ struct Scheduler {
     std::mutex mutex;
     std::vector<const OpenHapticsDriver*> devices;
     bool runs = false;
+    std::atomic<bool> has_served{false};  // a frame since its start: a force may have been given
 };
 Scheduler scheduler;
 
@@ -141,6 +143,7 @@ std::string OpenHapticsDriver::add_to_scheduler() {
 
 void OpenHapticsDriver::start_scheduler() {
     if (!scheduler.runs) {
+        scheduler.has_served.store(false, std::memory_order_release);
         hd_.start_scheduler();
         scheduler.runs = true;
     }
@@ -216,6 +219,7 @@ void OpenHapticsDriver::serve_frame() {
     std::array<double, 16> transform;
     transform.fill(nothing);
     int buttons = 0;
+    scheduler.has_served.store(true, std::memory_order_release);
     served_.at = monotonic_now();
     hd_.begin_frame(device_);
     hd_.get_doubles(hd_position, &position.x);
@@ -277,9 +281,13 @@ Driver::Exchange OpenHapticsDriver::exchange(ForceSlot& forces, Nanoseconds unti
     return Exchange::reading;
 }
 
-// Its servo thread is what is stuck; stopped, the device gives no force. exchange() starts it again.
+// Its servo thread is what is stuck; stopped, the device gives no force. exchange() starts it again: until it
+// has served a frame there is no force to take, and it is left to start.
 void OpenHapticsDriver::let_go() {
     const std::lock_guard lock(scheduler.mutex);
+    if (scheduler.runs && !scheduler.has_served.load(std::memory_order_acquire)) {
+        return;
+    }
     stop_scheduler();
     is_stopped_.store(true, std::memory_order_release);
     served_signal_.wake();

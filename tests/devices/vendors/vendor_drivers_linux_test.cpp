@@ -259,6 +259,22 @@ TEST(OpenHaptics, AServoThreadThatHangsIsStoppedByTheWatchdog) {
     EXPECT_EQ(device.health().times_lost, 0u) << "its scheduler was started again, and not the device";
 }
 
+// The watchdog stopped it again, each time before it had given a force.
+TEST(OpenHaptics, ASchedulerThatStartsSlowlyStartsAllTheSame) {
+    const auto is_given = [](const auto&) { return values_of(hd().force).x == 1.0; };
+    for (const int milliseconds : {2, 20, 200}) {
+        hd().start_time = milliseconds;
+        DriverDevice device(std::make_unique<OpenHapticsDriver>(""));
+        ASSERT_TRUE(tick_until(device, {1.0, 0.0, 0.0}, is_given));
+        hd().hangs = true;
+        EXPECT_TRUE(wait_until([] { return values_of(hd().force) == Vec3(0.0); }));
+        hd().hangs = false;
+        EXPECT_TRUE(tick_until(device, {1.0, 0.0, 0.0}, is_given)) << milliseconds << " ms";
+        EXPECT_EQ(device.health().times_lost, 0u) << milliseconds << " ms";
+    }
+    hd().start_time = 0;
+}
+
 // The library has one scheduler, which is stopped where a device comes or goes.
 TEST(OpenHaptics, TwoDevicesShareTheScheduler) {
     hd().wrong_calls = 0;
