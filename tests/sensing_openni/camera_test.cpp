@@ -5,7 +5,9 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <thread>
+#include <utility>
 
 #include "scene.hpp"
 
@@ -71,6 +73,102 @@ TEST(Camera, ShowsNoiseThatIsTheSameForTheSameSeed) {
     const std::vector<std::uint16_t> first = seen(3);
     EXPECT_EQ(first, seen(3));
     EXPECT_NE(first, seen(4));
+}
+
+// OpenNI2 itself, behind which a camera changes the size of what it gives.
+struct Resized {
+    OpenNi openni = testing::openni();
+
+    Resized() {
+        auto* const functions = const_cast<OpenNiFunctions*>(openni.operator->());
+        functions->stream_read_frame = [](OniStreamHandle stream, OniFrame** frame) {
+            const OniStatus status = testing::openni()->stream_read_frame(stream, frame);
+            if (status == ONI_STATUS_OK && change_frame) {
+                change_frame(**frame);
+            }
+            return status;
+        };
+        functions->stream_get_property = [](OniStreamHandle stream, int property, void* data, int* size) {
+            const OniStatus status = testing::openni()->stream_get_property(stream, property, data, size);
+            if (status == ONI_STATUS_OK && property == ONI_STREAM_PROPERTY_VIDEO_MODE && change_mode) {
+                change_mode(*static_cast<OniVideoMode*>(data));
+            }
+            return status;
+        };
+    }
+    ~Resized() {
+        change_frame = nullptr;
+        change_mode = nullptr;
+    }
+
+    static inline std::function<void(OniFrame&)> change_frame;
+    static inline std::function<void(OniVideoMode&)> change_mode;
+};
+
+void resize(OniFrame& frame, int width, int height) {
+    frame.width = frame.videoMode.resolutionX = width;
+    frame.height = frame.videoMode.resolutionY = height;
+}
+
+// Reads until something has come, of a scene that is shown for it.
+Camera::Reading read_shown(Camera& camera, Scene& scene, DepthImage& image, std::uint64_t time) {
+    scene.show(time);
+    Camera::Reading reading = Camera::Reading::nothing;
+    for (int i = 0; i < 50 && reading == Camera::Reading::nothing; ++i) {
+        reading = camera.read(image, 100);
+    }
+    return reading;
+}
+
+// Smaller ones became the top left of the image, with things where there are none.
+TEST(Camera, GivesNoImageWhereFramesAreNotOfTheirSize) {
+    Scene scene;
+    const Resized resized;
+    Camera camera(resized.openni);
+    ASSERT_EQ(camera.open({scene.uri()}), "");
+    const DepthImage whole = testing::frame_of(camera, scene, 1);
+    const int width = whole.camera.width, height = whole.camera.height;
+    std::uint64_t time = 1;
+    for (const auto& [w, h] : {std::pair{width / 2, height / 2},
+                               {width, height / 2},
+                               {2 * width, height},
+                               {2 * width, 2 * height},
+                               {0, 0},
+                               {-width, height}}) {
+        Resized::change_frame = [w, h](OniFrame& frame) { resize(frame, w, h); };
+        DepthImage image = whole;
+        EXPECT_EQ(read_shown(camera, scene, image, ++time), Camera::Reading::damaged) << w << " × " << h;
+        EXPECT_NE(camera.trouble().find("were announced"), std::string::npos) << camera.trouble();
+        EXPECT_EQ(image.depth_mm, whole.depth_mm) << w << " × " << h;
+        Resized::change_frame = nullptr;
+        EXPECT_EQ(testing::frame_of(camera, scene, ++time).depth_mm, whole.depth_mm) << w << " × " << h;
+        EXPECT_EQ(camera.trouble(), "");
+    }
+}
+
+// As after another program has set another video mode.
+TEST(Camera, FollowsASizeThatItAnnounces) {
+    Scene scene;
+    const Resized resized;
+    Camera camera(resized.openni);
+    ASSERT_EQ(camera.open({scene.uri()}), "");
+    const DepthImage whole = testing::frame_of(camera, scene, 1);
+    const int width = whole.camera.width / 2, height = whole.camera.height / 2;
+    Resized::change_frame = [=](OniFrame& frame) { resize(frame, width, height); };
+    Resized::change_mode = [=](OniVideoMode& mode) {
+        mode.resolutionX = width;
+        mode.resolutionY = height;
+    };
+    const DepthImage smaller = testing::frame_of(camera, scene, 2);
+    EXPECT_EQ(smaller.camera.width, width);
+    EXPECT_EQ(smaller.camera.height, height);
+    EXPECT_NEAR(smaller.camera.focal_x, 0.5 * whole.camera.focal_x, 1e-6);
+    EXPECT_EQ(check_image(smaller), "");
+    for (const int row : {0, 7, height - 1}) {
+        EXPECT_EQ(smaller.depth_mm[static_cast<std::size_t>(row * width)],
+                  whole.depth_mm[static_cast<std::size_t>(row * 2 * width)])
+            << row;
+    }
 }
 
 TEST(Camera, KeepsItsRate) {
