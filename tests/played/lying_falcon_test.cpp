@@ -24,6 +24,7 @@ TEST(PlayedFalcon, OnNonsenseItsForceGoesAndGrowsAgain) {
          },
          [&usb] { return usb.force(); }, [&usb] { return usb.take_most_step(); }},
         [&usb](Field field, Lie lie) { usb.lie(field, lie); },
+        [&usb] { return usb.lied_at(); },
         false};
     shared::LyingHand hand(device);
     ASSERT_TRUE(hand.is_there());

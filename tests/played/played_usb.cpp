@@ -419,6 +419,11 @@ void PlayedUsb::lie(stand_ins::Field field, stand_ins::Lie lie) {
     impl_->falcon.lie(field, lie);
 }
 
+Nanoseconds PlayedUsb::lied_at() {
+    const std::lock_guard lock(impl_->mutex);
+    return impl_->falcon.lied_at();
+}
+
 Vec3 PlayedUsb::hand() {
     const std::lock_guard lock(impl_->mutex);
     impl_->falcon.advance(monotonic_now());

@@ -39,6 +39,7 @@ public:
     void mean(const Vec3& place);
     void press(unsigned buttons);
     void lie(stand_ins::Field field, stand_ins::Lie lie);
+    Nanoseconds lied_at();  // see PlayedFalcon
     Vec3 hand();
     Vec3 force();
     double take_most_step();  // see PlayedFalcon

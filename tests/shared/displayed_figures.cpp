@@ -12,6 +12,7 @@
 #include "realtime/sleeper.hpp"
 #include "shared/bench_kit.hpp"
 #include "shared/driver_figures.hpp"
+#include "shared/processor_stalls.hpp"
 
 namespace tactus::shared {
 
@@ -43,8 +44,8 @@ private:
 class ContactLoop {
 public:
     ContactLoop(const WatchedDevice& watched, const DisplayedCase& c, DriverDevice& device,
-                DisplayedFigures& figures, std::vector<double>& writes)
-        : watched_(watched), case_(c), device_(device), figures_(figures), writes_(writes) {}
+                const ProcessorStalls& stalls, DisplayedFigures& figures, std::vector<double>& writes)
+        : watched_(watched), case_(c), device_(device), stalls_(stalls), figures_(figures), writes_(writes) {}
 
     bool wait_for_hand() {
         for (const Nanoseconds end = monotonic_now() + 5'000'000'000; monotonic_now() < end;) {
@@ -95,17 +96,18 @@ private:
         writes_.push_back(1e-3 * static_cast<double>(written - before));
         // A force lives for at least 1.5 ms, or for half a period more than one.
         const Nanoseconds late = std::max<Nanoseconds>(1'400'000, period * 11 / 10);
-        since_late_ = written - last_ > late ? 0 : since_late_ + 1;
+        const bool is_late = written - last_ > late || stalls_.any_since(last_);
+        since_late_ = is_late ? 0 : since_late_ + 1;
         last_ = written;
         return sample;
     }
     void note() {
-        ++ticks_;
         const std::uint64_t cuts = cuts_of(device_.health());
         const std::uint64_t news = cuts - std::exchange(cuts_, cuts);
         figures_.cuts += news;
-        figures_.late_ticks += since_late_ == 0 ? 1.0 : 0.0;
+        ++figures_.ticks;
         if (since_late_ > 10) {
+            ++figures_.even_ticks;
             figures_.let_go_while_even += news;
             asked_ += case_.newtons;
             displayed_ += seen_;
@@ -115,13 +117,14 @@ private:
     const WatchedDevice& watched_;
     const DisplayedCase& case_;
     DriverDevice& device_;
+    const ProcessorStalls& stalls_;
     DisplayedFigures& figures_;
     std::vector<double>& writes_;
     Sleeper sleeper_{SleepSettings{}};
     Nanoseconds deadline_ = monotonic_now() / from_seconds(1.0 / case_.rate) * from_seconds(1.0 / case_.rate);
     Nanoseconds last_ = 0;
     double asked_ = 0.0, displayed_ = 0.0, seen_ = 0.0;
-    std::uint64_t cuts_ = 0, ticks_ = 0;
+    std::uint64_t cuts_ = 0;
     int since_late_ = 0;  // ticks
     Vec3 last_wanted_{0.0};
 };
@@ -140,10 +143,11 @@ DisplayedFigures play_displayed(const WatchedDevice& watched, const DisplayedCas
     DisplayedFigures figures;
     std::vector<double> writes, p50, p99;
     const BusyProcessors load(c.is_loaded ? 2 : 0);
+    const ProcessorStalls stalls;
     const Nanoseconds period = from_seconds(1.0 / c.rate);
     const auto play = [&](DriverDevice& device) {
         const AsLoop as_loop;
-        ContactLoop loop(watched, c, device, figures, writes);
+        ContactLoop loop(watched, c, device, stalls, figures, writes);
         if (!loop.wait_for_hand()) {
             return;
         }

@@ -30,12 +30,18 @@ struct DisplayedCase {
 struct DisplayedFigures {
     int opened = 0;                       // phases in which the device was there
     double over_asked_min = 1.0;          // mean displayed force over the asked one, of the worst phase
-    std::uint64_t let_go_while_even = 0;  // cuts while no tick was late
+    std::uint64_t let_go_while_even = 0;  // cuts in even ticks
     std::uint64_t cuts = 0;
-    double late_ticks = 0.0;                        // share of ticks that were so late that a cut was right
+    // Even is a tick where for ten ticks none was so late that a cut was right, and no processor stood still:
+    // only these are judged.
+    std::uint64_t ticks = 0, even_ticks = 0;
     double delay_p50_us = 0.0, delay_p99_us = 0.0;  // from a reading until its force was handed over
     double write_p50_us = 0.0, write_p99_us = 0.0;  // that Device::write() takes of the loop's time
     double return_step_max = 0.0;                   // of the force after the loop has stopped (unit: newtons)
+
+    double even_share() const {
+        return ticks > 0 ? static_cast<double>(even_ticks) / static_cast<double>(ticks) : 0.0;
+    }
 };
 
 // Why the device gives no force at that rate of the loop (unit: hertz), as it says itself; empty: it gives

@@ -62,21 +62,25 @@ public:
     void lie(stand_ins::Field field, stand_ins::Lie lie) {
         constexpr const char* fields[] = {"position", "velocity", "rotation", "buttons"};
         constexpr const char* lies[] = {"none", "no_number", "infinite", "leaps", "frozen", "silent"};
+        told_at_ = 0;
         tell(std::string("lie ") + fields[static_cast<int>(field)] + " " + lies[static_cast<int>(lie)] +
              "\n");
     }
     // The newest force that it was told, in its axes.
     std::string force() {
-        for (pollfd file{from_, POLLIN, 0}; poll(&file, 1, 0) > 0 && (file.revents & POLLIN) != 0;) {
-            force_ = line();
+        while (take_force()) {
         }
         return force_;
+    }
+    // When it first sent what it was made to say by lie() (on the steady clock); 0: not yet.
+    Nanoseconds told_at() {
+        newest_force();
+        return told_at_;
     }
 
     // The same, in our axes, and the longest step of a force that grows since the last call (unit: newtons).
     Vec3 newest_force() {
-        for (pollfd file{from_, POLLIN, 0}; poll(&file, 1, 0) > 0 && (file.revents & POLLIN) != 0;) {
-            force_ = line();
+        while (take_force()) {
             Vec3 theirs;
             std::sscanf(force_.c_str(), "%lf %lf %lf", &theirs.x, &theirs.y, &theirs.z);
             const Vec3 ours(theirs.x, theirs.z, -theirs.y);
@@ -93,6 +97,18 @@ public:
     }
 
 private:
+    // False where nothing new has come.
+    bool take_force() {
+        for (pollfd file{from_, POLLIN, 0}; poll(&file, 1, 0) > 0 && (file.revents & POLLIN) != 0;) {
+            std::string said = line();
+            if (!said.starts_with("lied ")) {
+                force_ = std::move(said);
+                return true;
+            }
+            told_at_ = std::strtoll(said.c_str() + 5, nullptr, 10);
+        }
+        return false;
+    }
     void tell(const std::string& line) {
         static_cast<void>(write(to_, line.data(), line.size()) == static_cast<ssize_t>(line.size()));
     }
@@ -110,6 +126,7 @@ private:
     std::string force_;
     Vec3 newest_{0.0};
     double most_step_ = 0.0;
+    Nanoseconds told_at_ = 0;
 };
 
 }  // namespace tactus::shared

@@ -126,11 +126,13 @@ LyingFigures LyingHand::play(stand_ins::Field field, stand_ins::Lie lie) {
     const Nanoseconds longest = is_nonsense(device_, field, lie) ? longest_return : 30 * ms;
     while (monotonic_now() < began + longest) {
         if (force() == 0.0) {
-            figures.to_zero_ms = 1e3 * to_seconds(monotonic_now() - began);
+            const Nanoseconds zero = monotonic_now(), told = device_.told_at();
+            figures.to_zero_ms = 1e3 * to_seconds(zero - (told != 0 ? told : began));
             break;
         }
         timer.sleep_until(monotonic_now() + look_often);
     }
+    figures.was_even = !stalls_.any_since(began);
     device_.watched.take_most_step();
     const Nanoseconds lied = monotonic_now();
     while (monotonic_now() < lied + 30 * ms) {

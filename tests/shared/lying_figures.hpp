@@ -8,6 +8,7 @@
 #include "core/safety/hand_safety.hpp"
 #include "devices/driver_device.hpp"
 #include "shared/displayed_figures.hpp"
+#include "shared/processor_stalls.hpp"
 #include "stand_ins/stand_ins.hpp"
 
 namespace tactus::shared {
@@ -15,7 +16,8 @@ namespace tactus::shared {
 struct LyingDevice {
     WatchedDevice watched;
     std::function<void(stand_ins::Field, stand_ins::Lie)> tell;
-    bool has_velocity = true;  // of its own, and a rotation; false: both follow from encoders
+    std::function<Nanoseconds()> told_at;  // when it first said that (on the steady clock); 0: not yet
+    bool has_velocity = true;              // of its own, and a rotation; false: both follow from encoders
 };
 
 // Whether no force may be given on that. What repeats itself may be true where no other field contradicts it,
@@ -37,8 +39,10 @@ inline bool is_nonsense(const LyingDevice& device, stand_ins::Field field, stand
 }
 
 struct LyingFigures {
-    double force = 0.0;            // before it lied (unit: newtons)
-    double to_zero_ms = -1.0;      // from the lie until the motors gave nothing; -1: they never did
+    double force = 0.0;  // before it lied (unit: newtons)
+    // From when the device first said so until its motors gave nothing; -1: they always gave a force.
+    double to_zero_ms = -1.0;
+    bool was_even = true;          // no processor stood still until then
     double while_lying_max = 0.0;  // of the force, after that (unit: newtons)
     double return_step_max = 0.0;  // of the force, until it was whole again (unit: newtons)
     bool has_returned = false;     // to nearly what it was; the hand may lie a little otherwise
@@ -60,6 +64,7 @@ private:
     class Room;
     LyingDevice device_;
     std::unique_ptr<Room> room_;
+    ProcessorStalls stalls_;
 };
 
 }  // namespace tactus::shared

@@ -139,6 +139,9 @@ void PlayedFalcon::write(std::span<const std::uint8_t> bytes, Nanoseconds now) {
         next_report_ = std::max(next_report_ + packet_time, now);
         ++exchanges_;
         const FalconPacket packet = falcon_encode(report());
+        if (lie_ != stand_ins::Lie::none && lied_at_ == 0) {
+            lied_at_ = next_report_;
+        }
         if (lie_ != stand_ins::Lie::is_silent) {
             answer(packet, next_report_);
         }

@@ -50,7 +50,10 @@ public:
     void lie(stand_ins::Field field, stand_ins::Lie lie) {
         lying_field_ = field;
         lie_ = lie;
+        lied_at_ = 0;
     }
+    // When the chip first had a report, or should have had one, that is not so; 0: not yet.
+    Nanoseconds lied_at() const { return lied_at_; }
     void advance(Nanoseconds now);
 
     bool running() const { return stage_ == Stage::running; }
@@ -100,6 +103,7 @@ private:
     unsigned buttons_ = 0;
     stand_ins::Field lying_field_ = stand_ins::Field::position;
     stand_ins::Lie lie_ = stand_ins::Lie::none;
+    Nanoseconds lied_at_ = 0;
     unsigned homed_ = 0;
     unsigned pulled_out_ = 0;
     Vec3 meant_{0.0};

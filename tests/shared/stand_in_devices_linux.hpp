@@ -25,11 +25,8 @@ template <typename StandIn>
 LyingDevice lying_device(StandIn& device, std::function<std::unique_ptr<Driver>()> driver,
                          std::function<Vec3()> force) {
     return {{std::move(driver), std::move(force), [&device] { return device.most_step.exchange(0.0); }},
-            [&device](stand_ins::Field field, stand_ins::Lie lie) {
-                device.lying.lie = stand_ins::Lie::none;
-                device.lying.field = field;
-                device.lying.lie = lie;
-            }};
+            [&device](stand_ins::Field field, stand_ins::Lie lie) { device.lying.begin(field, lie); },
+            [&device] { return Nanoseconds{device.lying.told_at}; }};
 }
 
 inline LyingDevice force_dimension_device() {
@@ -49,7 +46,8 @@ inline LyingDevice openhaptics_device() {
 inline LyingDevice inverse3_device(HaplyService& service) {
     return {{[&service] { return std::make_unique<Inverse3Driver>("", service.port()); },
              [&service] { return service.newest_force(); }, [&service] { return service.take_most_step(); }},
-            [&service](stand_ins::Field field, stand_ins::Lie lie) { service.lie(field, lie); }};
+            [&service](stand_ins::Field field, stand_ins::Lie lie) { service.lie(field, lie); },
+            [&service] { return service.told_at(); }};
 }
 
 }  // namespace tactus::shared

@@ -9,7 +9,6 @@
 namespace {
 
 using tactus::stand_ins::Field;
-using tactus::stand_ins::Lie;
 
 tactus::stand_ins::OpenHaptics device;
 constexpr unsigned the_one = 7, the_second = 8;  // that one by its name alone
@@ -142,7 +141,7 @@ STAND_IN void hdGetIntegerv(unsigned what, int* value) {
         *value = device.has_six_motors ? 6 : 3;
         return;
     }
-    const bool leaps = device.lying.field == Field::buttons && device.lying.lie == Lie::leaps;
+    const bool leaps = what == 0x2000 && device.lying.swaps_buttons();
     const int buttons = leaps ? ~device.buttons.load() : device.buttons.load();
     *value = what == 0x2000 ? buttons : what == 0x2600 ? 1000 : 1;
 }

@@ -8,7 +8,6 @@
 namespace {
 
 using tactus::stand_ins::Field;
-using tactus::stand_ins::Lie;
 
 tactus::stand_ins::ForceDimension device;
 constexpr char the_one = 0;
@@ -126,7 +125,7 @@ STAND_IN int dhdSetWatchdog(unsigned char time, char id) {
     return checked(id);
 }
 STAND_IN unsigned dhdGetButtonMask(char id) {
-    const bool leaps = device.lying.field == Field::buttons && device.lying.lie == Lie::leaps;
+    const bool leaps = device.lying.swaps_buttons();
     return checked(id) == 0 ? (leaps ? ~device.buttons.load() : device.buttons.load()) : 0u;
 }
 STAND_IN int dhdSetGravityCompensation(int, char id) {

@@ -4,7 +4,8 @@ only after the last has been answered with a force.
     haply_service.py [silent|nonsense|uncalibrated]
 
 Prints its port, then each force that is another one, as "x y z". A line on stdin: "drop" closes the connection, "mad"
-makes nonsense of all it says from now on over this one, "lie FIELD MANNER" lets one field of its states lie.
+makes nonsense of all it says from now on over this one, "lie FIELD MANNER" lets one field of its states lie; "lied
+NANOSECONDS", on the steady clock, says when the first of them was sent.
 """
 
 import base64
@@ -123,10 +124,14 @@ def force_of(text: str) -> tuple[float, float, float]:
 def serve(client: socket.socket, manner: str, lie: list[str]) -> None:
     shake_hands(client)
     last = None
+    has_lied = True
     while True:
         if manner != "silent" and lie[1:] != ["silent"]:
             told = state(manner != "uncalibrated")
             client.sendall(frame("{]" if manner == "nonsense" else json.dumps(lying(told, *lie) if lie else told)))
+        if not has_lied:
+            print("lied", time.monotonic_ns(), flush=True)
+            has_lied = True
         while True:
             readable, _, _ = select.select([client, sys.stdin], [], [], 0.05)
             if sys.stdin in readable:
@@ -135,6 +140,7 @@ def serve(client: socket.socket, manner: str, lie: list[str]) -> None:
                     sys.exit(0)
                 if said.startswith(b"lie "):
                     lie[:] = said.split(b"\n")[-2].decode().split()[1:]
+                    has_lied = lie[1] == "none"
                 elif said == b"mad\n":
                     manner = "nonsense"
                 else:

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
+#include <cstdint>
 
 namespace tactus::stand_ins {
 
@@ -27,11 +29,28 @@ enum class Lie { none, no_number, infinite, leaps, is_frozen, is_silent, count }
 struct Lying {
     std::atomic<Field> field{Field::position};
     std::atomic<Lie> lie{Lie::none};
+    // When the device first said what is not so (on the steady clock; unit: nanoseconds); 0: not yet.
+    mutable std::atomic<std::int64_t> told_at{0};
+
+    void begin(Field of, Lie manner) {
+        lie = Lie::none;
+        field = of;
+        told_at = 0;
+        lie = manner;
+    }
+    void note() const {
+        const std::chrono::nanoseconds now = std::chrono::steady_clock::now().time_since_epoch();
+        std::int64_t not_yet = 0;
+        told_at.compare_exchange_strong(not_yet, now.count());
+    }
 
     // A value of that field; `leapt`: where it leaps to.
     double told(Field of, double truth, double leapt) const {
         if (field != of) {
             return truth;
+        }
+        if (lie != Lie::none && lie != Lie::is_frozen) {
+            note();
         }
         switch (lie.load()) {
             case Lie::no_number:
@@ -46,11 +65,28 @@ struct Lying {
     }
     // Where a position or a velocity is frozen, both no longer fit together (unit: meters per second).
     double velocity() const {
-        const bool moves = field == Field::position || field == Field::velocity;
-        return told(Field::velocity, moves && lie == Lie::is_frozen ? 1.5 : 0.0, 1e3);
+        const bool moves = (field == Field::position || field == Field::velocity) && lie == Lie::is_frozen;
+        if (moves) {
+            note();
+        }
+        return told(Field::velocity, moves ? 1.5 : 0.0, 1e3);
+    }
+    // What is held and what is not is the other way round.
+    bool swaps_buttons() const {
+        const bool swaps = field == Field::buttons && lie == Lie::leaps;
+        if (swaps) {
+            note();
+        }
+        return swaps;
     }
     // The library does not come back.
-    bool is_silent() const { return lie == Lie::is_silent; }
+    bool is_silent() const {
+        const bool is_so = lie == Lie::is_silent;
+        if (is_so) {
+            note();
+        }
+        return is_so;
+    }
 };
 
 // Of libdhd. One device, "omega.3".
