@@ -311,3 +311,65 @@ func test_feedback_without_a_proxy_says_so() -> void:
 	world.advance(0.01)
 	check("\n".join(feedback.get_warnings()).contains("is silent"), str(feedback.get_warnings()))
 	await _the_mixer_is_done()
+
+
+## A ball flies through where each of them would be.
+func test_a_hand_whose_device_is_not_there_is_nowhere() -> void:
+	OS.set_environment("SPNAV_SOCKET", OS.get_user_data_dir().path_join("no_such_spacenavd"))
+	for driver: int in [
+		HapticDevice.DRIVER_FALCON,
+		HapticDevice.DRIVER_FORCE_DIMENSION,
+		HapticDevice.DRIVER_OPENHAPTICS,
+		HapticDevice.DRIVER_INVERSE3,
+		HapticDevice.DRIVER_GAMEPAD,
+		HapticDevice.DRIVER_SPACE_MOUSE,
+		HapticDevice.DRIVER_NODE,
+	]:
+		expect_error("Device: ")
+		var world := add_world()
+		var device := _device(world, driver)
+		var tip := ProxyPointer.new()
+		world.add_child(tip)
+		await _play(world, 3)
+		var ball := with_shape(RigidBody3D.new(), sphere(0.02), Vector3(-0.1, 0.005, 0)) as RigidBody3D
+		ball.linear_velocity = Vector3(1, 0, 0)
+		ball.linear_damp_mode = RigidBody3D.DAMP_MODE_REPLACE
+		world.add_child(ball)
+		world.advance(0.3)
+		var said := "driver %d: %s" % [driver, device.get_state_text()]
+		check(device.get_state() != HapticDevice.STATE_WORKING, said)
+		check(not device.is_device_connected(), said)
+		check(not tip.is_present() and not tip.is_touching(), "%s; %s" % [said, tip.get_state_text()])
+		check_near(ball.position, Vector3(0.2, 0.005, 0), 2e-3, said)
+		world.free()
+	OS.unset_environment("SPNAV_SOCKET")
+
+
+func test_a_pointer_that_is_switched_off_is_nowhere() -> void:
+	var world := add_world()
+	var tip := add_hand(world, path(Vector3(0, 0.1, 0), Vector3(0, 0.1, 0)))
+	world.advance(0.01)
+	check(tip.is_present(), tip.get_state_text())
+	tip.enabled = false
+	world.advance(0.01)
+	check(not tip.is_present(), tip.get_state_text())
+
+
+func test_a_node_that_is_too_far_away_leads_no_hand() -> void:
+	var world := add_world()
+	var leader := Node3D.new()
+	leader.name = "Leader"
+	world.add_child(leader)
+	var device := _device(world, HapticDevice.DRIVER_NODE)
+	device.target = NodePath("../Leader")
+	await _play(world, 2)
+	check(device.is_device_connected(), device.get_state_text())
+	expect_error("Device: ")
+	for far: float in [2e6, INF, NAN]:
+		leader.position.x = far
+		await _play(world, 2)
+		check(not device.is_device_connected(), "at %s m: %s" % [far, device.get_state_text()])
+		check(device.get_state() != HapticDevice.STATE_WORKING, device.get_state_text())
+		leader.position.x = 0.1
+		await _play(world, 2)
+		check(device.is_device_connected(), device.get_state_text())

@@ -90,6 +90,26 @@ func test_what_is_no_tool_is_said() -> void:
 	check_equal(tool.get_warnings().size(), 0, "warnings")
 
 
+## It pressed the floor, and its force, its contacts and its place stayed.
+func test_a_tool_that_loses_its_mesh_is_nowhere() -> void:
+	var world := add_world()
+	add_floor(world)
+	var tool := add_tool(world, path(Vector3(0, 0.05, 0), Vector3(0, 0.005, 0), 0.2), bar())
+	world.advance(0.5)
+	check(tool.get_force().y > 1.0, "force: %s" % tool.get_force())
+	check(tool.get_contacts().size() > 0, "it has no contact")
+	tool.mesh = null
+	world.advance(0.05)
+	check(not tool.is_present(), "it is present")
+	check_equal(tool.get_force(), Vector3.ZERO, "force")
+	check_equal(tool.get_contacts().size(), 0, "contacts")
+	var device: HapticDevice = world.get_node("Device")
+	check_equal(device.get_force(), Vector3.ZERO, "force of the device")
+	tool.mesh = bar()
+	world.advance(0.05)
+	check(tool.get_state_text().contains("does not fit"), tool.get_state_text())
+
+
 ## It waits where the hand holds it until that is a place in which it fits.
 func test_a_tool_larger_than_its_room_is_absent() -> void:
 	var world := add_world()
