@@ -66,6 +66,10 @@ public:
         tell(std::string("lie ") + fields[static_cast<int>(field)] + " " + lies[static_cast<int>(lie)] +
              "\n");
     }
+    // That its grip is not "connected" or not "awake", and repeats its buttons; empty: it is both.
+    void lose_grip(const std::string& status) {
+        tell("lie buttons " + (status.empty() ? "none" : status) + "\n");
+    }
     // The newest force that it was told, in its axes.
     std::string force() {
         while (take_force()) {

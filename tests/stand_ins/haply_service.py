@@ -39,6 +39,8 @@ def lying(told: dict, field: str, manner: str) -> dict:
         grip["orientation"]["z"] = (WRONG | {"leaps": -grip["orientation"]["z"]}).get(manner, grip["orientation"]["z"])
     if field == "buttons" and manner == "leaps":
         grip["buttons"] = {name: not held for name, held in grip["buttons"].items()}
+    if field == "buttons" and manner in ("connected", "awake"):  # is not, and repeats what it said before
+        told["wireless_verse_grip"][0]["status"][manner] = False
     return told
 
 

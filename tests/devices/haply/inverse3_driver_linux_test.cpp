@@ -58,6 +58,26 @@ TEST(Inverse3, AStalledLoopLetsTheHandGo) {
     EXPECT_TRUE(wait_until([&] { return service.force() == "0.0 0.0 0.0"; }));
 }
 
+// Its last buttons stayed held, and with them a dead man's button.
+TEST(Inverse3, AGripThatSleepsOrIsOutOfReachHoldsNoButton) {
+    NEEDS_LIBRARIES();
+    HaplyService service;
+    const auto device = inverse3(service);
+    const auto held = [](std::uint32_t buttons) {
+        return
+            [buttons](const DeviceSample& sample) { return sample.connected && sample.buttons == buttons; };
+    };
+    ASSERT_TRUE(tick_until(*device, {1.0, 0.0, 0.0}, held(5)));
+    const Quat turned = device->read(0).rotation;
+    for (const char* const status : {"awake", "connected"}) {
+        service.lose_grip(status);
+        EXPECT_TRUE(tick_until(*device, {1.0, 0.0, 0.0}, held(0))) << status;
+        EXPECT_EQ(device->read(0).rotation, turned) << "it is turned as it was: " << status;
+        service.lose_grip("");
+        EXPECT_TRUE(tick_until(*device, {1.0, 0.0, 0.0}, held(5))) << status;
+    }
+}
+
 TEST(Inverse3, NonsenseIsGivenNoForceAndNoHand) {
     NEEDS_LIBRARIES();
     HaplyService service;
