@@ -3,8 +3,11 @@
 import importlib.util
 import json
 import re
+import subprocess
 import sys
+import tomllib
 import types
+import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 import docs
@@ -78,6 +81,49 @@ def test_the_markup_of_the_editor_in_markdown(markup, markdown):
 
 def blocks(document: Path, language: str) -> list[str]:
     return re.findall(rf"```{re.escape(language)}\n(.*?)```", document.read_text(), re.DOTALL)
+
+
+def documents() -> list[Path]:
+    clone = cache.clone()
+    return [clone / "README.md", clone / "CONTRIBUTING.md", *sorted((clone / "docs").rglob("*.md"))]
+
+
+def test_every_snippet_of_python_and_toml_is_parsed():
+    python = [(page, block) for page in documents() for block in blocks(page, "python")]
+    toml = [block for page in documents() for block in blocks(page, "toml")]
+    for page, block in python:
+        compile(block, str(page), "exec")
+    for block in toml:
+        tomllib.loads(block)
+    assert len(python) >= 5 and len(toml) >= 2
+
+
+def test_every_snippet_is_of_a_language_that_a_test_reads():
+    """gdscript: tests/godot/docs_examples_test.gd; sh: test_docs_commands.py."""
+    found = {language for page in documents() for language in re.findall(r"^[ \t]*```(.+)$", page.read_text(), re.MULTILINE)}
+    assert found == {"c++", "csharp", "gdscript", "python", "sh", "toml"}
+
+
+def test_the_driver_of_the_tutorial_compiles(tmp_path):
+    (source,) = blocks(TUTORIALS / "own_driver.md", "c++")
+    headers = ("core/ports/device.hpp", "devices/driver.hpp", "devices/force_slot.hpp", "platform/clock.hpp")
+    program = "".join(f'#include "{header}"\n' for header in headers) + f"namespace tactus {{\n{source}\n}}\n"
+    (tmp_path / "driver.cpp").write_text(program)
+    command = ["g++", "-std=c++20", "-fsyntax-only", "-I", str(cache.clone() / "extension"), str(tmp_path / "driver.cpp")]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+
+
+def test_names_in_c_sharp_are_those_of_the_classes():
+    """No Godot with C# can be had to run it."""
+    known = set()
+    for path in (cache.clone() / "extension/doc_classes").glob("*.xml"):
+        root = ElementTree.parse(path).getroot()
+        known |= {one.get("name") for kind in ("method", "member", "signal") for one in root.iter(kind)}
+    used = [
+        name for block in blocks(cache.clone() / "docs/csharp.md", "csharp") for name in re.findall(r'\.(?:Set|Get|Call|Connect)\("(\w+)"', block)
+    ]
+    assert len(used) >= 3 and not set(used) - known
 
 
 def test_the_experiment_of_the_tutorial_runs_and_its_sweep_can_be_played(tmp_path, monkeypatch):
