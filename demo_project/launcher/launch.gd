@@ -32,8 +32,8 @@ const ONLY_IN := {
 	"side": [2, 4],
 	"remote_address": [2, 4],
 	"key_file": [2, 4],
-	"delay_ms": [2, 3, 4, 5],
-	"jitter_ms": [2, 3, 4, 5],
+	"delay": [2, 3, 4, 5],
+	"jitter": [2, 3, 4, 5],
 	"loss": [2, 3, 4, 5],
 	"correction": [2, 3, 4, 5],
 	"derivation": [2, 3, 4, 5],
@@ -58,8 +58,8 @@ var chosen := {
 	"local_port": FIRST_PORT,
 	"remote_port": FIRST_PORT + 1,
 	"key_file": "",
-	"delay_ms": 0.0,
-	"jitter_ms": 0.0,
+	"delay": 0.0,
+	"jitter": 0.0,
 	"loss": 0.0,
 	"correction": "CORRECTION_STEALTHY_DIRECTION",
 	"derivation": "DERIVATION_RESIMULATE",
@@ -108,8 +108,8 @@ static func _declared() -> Dictionary:
 		"local_port": OptionWords.whole(1, 65535),
 		"remote_port": OptionWords.whole(1, 65535),
 		"key_file": OptionWords.text(),
-		"delay_ms": OptionWords.number(0.0, 20000.0, "ms"),
-		"jitter_ms": OptionWords.number(0.0, 10000.0, "ms"),
+		"delay": OptionWords.renamed("delay_ms", OptionWords.number(0.0, 20000.0, "ms")),
+		"jitter": OptionWords.renamed("jitter_ms", OptionWords.number(0.0, 10000.0, "ms")),
 		"loss": OptionWords.number(0.0, 1.0, "share"),
 		"correction": OptionWords.choice(names_of(CORRECTIONS)),
 		"derivation": OptionWords.choice(names_of(DERIVATIONS)),
@@ -202,8 +202,8 @@ func _options(side: String, number: int) -> PackedStringArray:
 
 
 func _add_link(options: Dictionary) -> void:
-	options["link.conditions.delay"] = chosen.delay_ms / 2000.0
-	options["link.conditions.jitter"] = chosen.jitter_ms / 1000.0
+	options["link.conditions.delay"] = chosen.delay / 2000.0
+	options["link.conditions.jitter"] = chosen.jitter / 1000.0
 	options["link.conditions.loss"] = chosen.loss
 	options[CORRECTIONS[2]] = value_of(CORRECTIONS, chosen.correction)
 	options[CONTROLS[2]] = value_of(CONTROLS, chosen.control)

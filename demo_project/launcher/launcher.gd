@@ -10,8 +10,7 @@ const Run := preload("res://launcher/run.gd")
 const Replay := preload("res://experiments/replay.gd")
 
 ## Each row of the form: its words, the choice, and what can be chosen: texts to values, an enumeration, or a
-## range of numbers with its step and, where it is shown in another unit, what one of that is; nothing: any
-## text.
+## range of numbers with its step; nothing: any text.
 const ROWS := [
 	["Scenario", "scenario", Launch.SCENARIOS],
 	[
@@ -25,9 +24,9 @@ const ROWS := [
 	["Port of this side", "local_port", [1, 65535, 1]],
 	["Port of the other side", "remote_port", [1, 65535, 1]],
 	["File with the key", "key_file", null],
-	["Delay, there and back (ms)", "delay_ms", [0, 2000, 1]],
-	["Jitter (ms)", "jitter_ms", [0, 500, 1]],
-	["Loss (%)", "loss", [0, 100, 1, 0.01]],
+	["Delay, there and back (ms)", "delay", [0, 2000, 1]],
+	["Jitter (ms)", "jitter", [0, 500, 1]],
+	["Loss (0 to 1)", "loss", [0, 1, 0.01]],
 	["Correction", "correction", Launch.CORRECTIONS],
 	["Derivation", "derivation", Launch.DERIVATIONS],
 	["Control scheme", "control", Launch.CONTROLS],
@@ -111,11 +110,9 @@ func _number(limits: Array, choice: String) -> SpinBox:
 	box.min_value = limits[0]
 	box.max_value = limits[1]
 	box.step = limits[2]
-	var unit: float = limits[3] if limits.size() > 3 else 1.0
-	box.value = _launch.chosen[choice] / unit
+	box.value = _launch.chosen[choice]
 	box.value_changed.connect(
-		func(value: float) -> void:
-			_choose(choice, type_convert(value * unit, typeof(_launch.chosen[choice])))
+		func(value: float) -> void: _choose(choice, type_convert(value, typeof(_launch.chosen[choice])))
 	)
 	return box
 
@@ -153,7 +150,7 @@ func _chosen() -> void:
 		"correction": _launch.chosen.scenario in [4, 5],
 		"derivation": _launch.chosen.scenario in [4, 5],
 	}
-	for choice: String in ["delay_ms", "jitter_ms", "loss"]:
+	for choice: String in ["delay", "jitter", "loss"]:
 		shown[choice] = _launch.chosen.scenario != 1
 	for choice: String in OF_A_NETWORK:
 		shown[choice] = _launch.has_network()

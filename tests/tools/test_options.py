@@ -14,7 +14,7 @@ class Settings:
     seconds: float = options.seconds(10.0)
     rounds: int = options.option(3, "count", 1, 1000)
     clock: Literal["real", "stepped"] = "real"
-    delays: tuple[int, ...] = options.numbers((0, 50), "ms", 0, 10_000)
+    delays: tuple[int, ...] = options.numbers((0, 50), "ms", 0, 10_000, was="waits")
     ways: tuple[str, ...] = options.names(None, lambda: {"one": 1, "two": 2})
     pictures: bool = options.switch(True)
     set: dict[str, str] = options.pairs()
@@ -32,6 +32,13 @@ def test_values_are_turned_into_the_kind_of_their_field():
     given = {"seconds": "2.5", "clock": "stepped", "delays": "100,5", "ways": "two", "pictures": "0", "set": "a=1,b=x"}
     expected = Settings(2.5, 3, "stepped", (100, 5), ("two",), False, {"a": "1", "b": "x"})
     assert options.parse(Settings, given) == expected
+
+
+def test_a_former_name_works_and_names_the_new_one(capsys):
+    assert options.parse(Settings, {"waits": "5"}).delays == (5,)
+    assert capsys.readouterr().err.startswith("--waits is --delays now.")
+    with pytest.raises(options.Refused, match="--waits is the former name of --delays, and both are given"):
+        options.parse(Settings, {"waits": "5", "delays": "5"})
 
 
 def test_all_names_are_all_there_are():

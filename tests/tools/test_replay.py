@@ -83,7 +83,7 @@ def launched(program: list, folder: Path, *options: str) -> None:
 
 
 def test_the_exported_launcher_plays_scenario_4_with_itself_and_the_bundle_gives_it_again(exported, tmp_path, capsys):
-    launched(exported, tmp_path, "--scenario=4", "--seconds=4", "--delay_ms=40", "--jitter_ms=5", "--loss=0.05")
+    launched(exported, tmp_path, "--scenario=4", "--seconds=4", "--delay=40", "--jitter=5", "--loss=0.05")
     for side in ("operator", "environment"):
         assert (tmp_path / f"{side}_force.svg").read_text().startswith("<svg")
         ElementTree.parse(tmp_path / f"{side}_hand.svg")
@@ -108,7 +108,7 @@ def test_the_launcher_refuses_what_there_is_not(exported, tmp_path):
         "--scenario=7": "a whole number from 1 to 5",
         "--driver=DRIVER_X": "DRIVER_FALCON",
         "--seconds=0": "a number from 0.1",
-        "--delay_ms=nan": "a number from 0.0 to 20000.0 (ms",
+        "--delay=nan": "a number from 0.0 to 20000.0 (ms",
         "--colour=red": "there is no --colour",
     }.items():
         done = play(exported, "--launch=now", f"--output={tmp_path}", option)

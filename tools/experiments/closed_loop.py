@@ -1,7 +1,7 @@
 """A hand that is pushed back: an arm with mass, damping and stiffness presses, over a network, traditionally and with a
 local model (what a scripted path leaves open: thesis 5.3, inference 5).
 
-    ./run experiment closed_loop [--delays=0,25,50,100,200,500] [--two_port=1] [--pictures=1]
+    ./run experiment closed_loop [--delay=0,25,50,100,200,500] [--two_port=1] [--pictures=1]
 
 In the static scene the arm presses onto the ground and holds; in the dynamic one it pushes a box, whose model is 20 %
 too heavy and 30 % too slippery, and holds. Cases are SCENE.local and SCENE.WAY_DELAYms, where WAY is mmt (the default),
@@ -48,7 +48,7 @@ LINES: dict[str, teleop_runs.Case] = {"clean": {}, "jitter": {"jitter_ms": 5}, "
 
 @dataclass(frozen=True)
 class Settings:
-    delays: tuple[int, ...] = options.numbers((0, 25, 50, 100, 200, 500), "ms", 0, options.LONGEST_DELAY_MS)
+    delay: tuple[int, ...] = options.numbers((0, 25, 50, 100, 200, 500), "ms", 0, options.LONGEST_DELAY_MS, was="delays")
     clock: Literal["virtual", "real"] = "virtual"
     two_port: bool = options.switch(False)
     pictures: bool = options.switch(True)
@@ -83,7 +83,7 @@ def cases(description: dict, scene: str, delays: list[str], output: Path) -> lis
 def run(given: dict[str, str], output: Path) -> dict[str, object]:
     settings = options.parse(Settings, given)
     description = teleop_runs.description("closed_loop")
-    delays = list(map(str, settings.delays))
+    delays = list(map(str, settings.delay))
     if settings.clock == "real":
         from measuring import teleop_processes
 

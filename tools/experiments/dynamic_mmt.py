@@ -1,8 +1,8 @@
 """Touch of what moves, over a network, with a model that is realistically wrong: how to bring the truth in (thesis 5.4).
 
-    ./run experiment dynamic_mmt [--seconds=10] [--delays=0,25,50,100,200,500] [--losses=0,0.1,0.5] [--pictures=1]
-        [--table=1] [--variants=1] [--long=1] [--unmodelled=1] [--grid=1] [--grid_scenes=one,three,stack,hinge] [--grid_wrong=all] [--grid_delays=50,100,200]
-        [--grid_schemes=default,never_corrected,…] [--grid_losses=0,0.5] [--grid_seeds=6] [--grid_set=KEY=VALUE,KEY=VALUE]
+    ./run experiment dynamic_mmt [--seconds=10] [--delay=0,25,50,100,200,500] [--loss=0,0.1,0.5] [--pictures=1]
+        [--table=1] [--variants=1] [--long=1] [--unmodelled=1] [--grid=1] [--grid_scenes=one,three,stack,hinge] [--grid_wrong=all] [--grid_delay=50,100,200]
+        [--grid_schemes=default,never_corrected,…] [--grid_loss=0,0.5] [--grid_seeds=6] [--grid_set=KEY=VALUE,KEY=VALUE]
         [--mass=0.8 --friction=1.3 --tilt=1 --moved=0.01 --pose_noise=0.001 --phase=500 --late=50 --jitter=3]
 
 Cases are CORRECTION.DERIVATION.DELAYms.LOSSpct: how a correction is brought in, how the present is derived from a state
@@ -58,8 +58,8 @@ SHOWN = ("none.none.100ms.0pct", "pose.none.100ms.0pct", "stealthy_direction.res
 @dataclass(frozen=True)
 class Settings(teleop_runs.Imperfections):
     seconds: float = options.seconds(10.0)
-    delays: tuple[int, ...] = options.numbers((0, 25, 50, 100, 200, 500), "ms", 0, options.LONGEST_DELAY_MS)
-    losses: tuple[float, ...] = options.numbers((0.0, 0.1, 0.5), "share", 0, 1)
+    delay: tuple[int, ...] = options.numbers((0, 25, 50, 100, 200, 500), "ms", 0, options.LONGEST_DELAY_MS, was="delays")
+    loss: tuple[float, ...] = options.numbers((0.0, 0.1, 0.5), "share", 0, 1, was="losses")
     clock: Literal["virtual", "real"] = "virtual"
     pictures: bool = options.switch(True)
     table: bool = options.switch(True)
@@ -69,8 +69,8 @@ class Settings(teleop_runs.Imperfections):
     grid: bool = options.switch(True)
     grid_scenes: tuple[str, ...] = options.names(None, lambda: teleop_runs.description("dynamic_mmt")["grid"]["scenes"])
     grid_wrong: tuple[str, ...] = options.names(None, lambda: teleop_runs.description("dynamic_mmt")["grid"]["wrong"])
-    grid_delays: tuple[int, ...] = options.numbers((50, 100, 200), "ms", 0, options.LONGEST_DELAY_MS)
-    grid_losses: tuple[float, ...] = options.numbers((0.0, 0.5), "share", 0, 1)
+    grid_delay: tuple[int, ...] = options.numbers((50, 100, 200), "ms", 0, options.LONGEST_DELAY_MS, was="grid_delays")
+    grid_loss: tuple[float, ...] = options.numbers((0.0, 0.5), "share", 0, 1, was="grid_losses")
     grid_seeds: int = options.option(6, "count", 0, 1000)
     grid_schemes: tuple[str, ...] = options.names(None, teleop_grid.SCHEMES)
     grid_set: dict[str, str] = options.pairs()
@@ -84,8 +84,8 @@ def _percent(share: float) -> str:
 def cases(description: dict, settings: Settings, output: Path) -> list[teleop_runs.Case]:
     wrong = teleop_runs.wrong(description["wrong"]) | settings.keys(description["scene"], description["object"])
     found: list[teleop_runs.Case] = []
-    for delay in map(str, settings.delays):
-        for share in settings.losses:
+    for delay in map(str, settings.delay):
+        for share in settings.loss:
             loss = _percent(share)
             common = {"delay_ms": delay, "loss": share, "seconds": settings.seconds}
             common["object"] = description["object"]
@@ -168,7 +168,7 @@ def _long_delay(description: dict, output: Path) -> dict[str, object]:
 def _unmodelled(description: dict, settings: Settings, output: Path) -> dict[str, object]:
     grid = description["grid"]
     acted = description | {"grid": grid | {"wrong": grid["unmodelled"]}}
-    names = teleop_grid.unmodelled(grid, settings.grid_scenes, map(str, settings.grid_delays))
+    names = teleop_grid.unmodelled(grid, settings.grid_scenes, map(str, settings.grid_delay))
     found = teleop_grid.run(acted, names, teleop_grid.WITH_LOSS, output, settings.grid_set)
     _write_grid(output / "unmodelled.csv", found)
     return teleop_grid.summary(found, "unmodelled.")
@@ -179,7 +179,7 @@ def _grid(description: dict, settings: Settings, output: Path) -> dict[str, obje
     scenes, wrongs = settings.grid_scenes, settings.grid_wrong
     schemes = dict.fromkeys([*settings.grid_schemes, "never_corrected"])
     more = settings.grid_set
-    delays = list(map(str, settings.grid_delays))
+    delays = list(map(str, settings.grid_delay))
     summary: dict[str, object] = {}
     if settings.grid_seeds:
         drawn = teleop_grid.drawn(settings.grid_seeds)
@@ -187,7 +187,7 @@ def _grid(description: dict, settings: Settings, output: Path) -> dict[str, obje
         found = teleop_grid.run(unseen, teleop_grid.cases(grid, scenes, drawn, delays, "0"), [*schemes, teleop_grid.BOUND], output, more)
         _write_grid(output / "grid_unseen.csv", found)
         summary |= teleop_grid.summary(found, "grid.unseen.")
-    for loss in map(_percent, settings.grid_losses):
+    for loss in map(_percent, settings.grid_loss):
         names = teleop_grid.cases(grid, scenes, wrongs, delays, loss)
         # With losses, the default is asked against what it has to beat there.
         asked = [*schemes, teleop_grid.BOUND] if loss == "0" else [one for one in schemes if one in teleop_grid.WITH_LOSS]

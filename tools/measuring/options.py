@@ -6,6 +6,7 @@ with the key, the value and what is allowed.
 """
 
 import re
+import sys
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import MISSING, Field, field, fields
 from typing import Any, TypeVar, get_args, get_origin
@@ -40,9 +41,9 @@ def seed(default: int = 1) -> Any:
     return option(default, "count", 0, LARGEST_SEED)
 
 
-def numbers(default: Iterable[float], unit: str, least: float = 0.0, most: float = LONGEST_S) -> Any:
-    """A tuple of numbers, written 0,25,50."""
-    return option(tuple(default), unit, least, most)
+def numbers(default: Iterable[float], unit: str, least: float = 0.0, most: float = LONGEST_S, was: str = "") -> Any:
+    """A tuple of numbers, written 0,25,50. `was`: the name that the option had."""
+    return field(default=tuple(default), metadata={"unit": unit, "least": least, "most": most, "was": was})
 
 
 def names(default: Iterable[str] | None, among: Known) -> Any:
@@ -92,11 +93,26 @@ def of_words(words: Iterable[str]) -> dict[str, str]:
 def parse(kind: type[Options], given: Mapping[str, str]) -> Options:
     """`kind` is a dataclass whose fields have their defaults."""
     known = {field.name: field for field in fields(kind)}  # type: ignore[arg-type]
+    given = _renamed(known.values(), given)
     unknown = sorted(set(given) - set(known))
     if unknown:
         raise Refused(f"unknown option --{unknown[0]}; there are: {', '.join(f'--{name}' for name in known)}")
     values = {name: _value(one, given[name]) if name in given else _default(one) for name, one in known.items()}
     return kind(**values)
+
+
+def _renamed(known: Iterable[Field], given: Mapping[str, str]) -> Mapping[str, str]:
+    """Options under their former names, each with a warning, as CHANGELOG.md promises."""
+    now = {one.metadata["was"]: one.name for one in known if one.metadata.get("was")}
+    found: dict[str, str] = {}
+    for key, value in given.items():
+        name = now.get(key, key)
+        if name in found or (name != key and name in given):
+            raise Refused(f"--{key} is the former name of --{name}, and both are given: say it once")
+        if name != key:
+            print(f"--{key} is --{name} now. The old name still works: write the new one before it is dropped, see CHANGELOG.md.", file=sys.stderr)
+        found[name] = value
+    return found
 
 
 def words(settings: Any) -> str:

@@ -35,6 +35,11 @@ static func numbers(least: float, most: float, unit := "") -> Dictionary:
 	return {"type": TYPE_PACKED_FLOAT64_ARRAY, "least": least, "most": most, "unit": unit}
 
 
+## One that had another name, which still works, with a warning.
+static func renamed(was: String, one: Dictionary) -> Dictionary:
+	return one.merged({"was": was})
+
+
 ## 0 or 1.
 static func switch() -> Dictionary:
 	return {"type": TYPE_BOOL}
@@ -86,6 +91,7 @@ func read(words: PackedStringArray) -> String:
 		var key := word.substr(2, at - 2)
 		if not word.begins_with("--") or at < 3:
 			return "'%s' is not --key=value; the keys are --%s" % [word, ", --".join(declared.keys())]
+		key = _present_name(key)
 		if not declared.has(key):
 			return "there is no --%s; there are --%s" % [key, ", --".join(declared.keys())]
 		if found.has(key):
@@ -96,6 +102,19 @@ func read(words: PackedStringArray) -> String:
 		found[key] = value
 	values = found
 	return ""
+
+
+func _present_name(key: String) -> String:
+	for name: String in declared:
+		if declared[name].get("was", "") == key:
+			push_warning(
+				(
+					"--%s is --%s now. The old name still works: write the new one before it is dropped."
+					% [key, name]
+				)
+			)
+			return name
+	return key
 
 
 ## As value_of() reads it.
