@@ -62,10 +62,11 @@ def text(minimum, precision, systems, seeing=()):
 
 
 def names(class_name):
-    """The name of a class, and the one that it had (`was` in the class reference)."""
-    table = CLONE / "extension/doc_classes" / f"{class_name}.xml"
-    was = ElementTree.parse(table).getroot().get("was") if table.is_file() else None
-    return [class_name, was] if was else [class_name]
+    """The classes with the icon of this one: itself under its former name (`was` in the class reference), and statistics of its kind."""
+    roots = {path.stem: ElementTree.parse(path).getroot() for path in sorted((CLONE / "extension/doc_classes").glob("*.xml"))}
+    was = roots[class_name].get("was") if class_name in roots else None
+    kinds = [name for name, root in roots.items() if root.get("statistics_of") and root.get("inherits") == class_name]
+    return [class_name, *([was] if was else []), *kinds]
 
 
 def _tags(platform, feature, precision):

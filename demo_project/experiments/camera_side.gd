@@ -122,7 +122,7 @@ func _say(now: float) -> void:
 		line["tip_force"] = _numbers(proxy.get_force())
 		var sensor: HapticDepthSensor = _world.get_node("DepthSensor")
 		line["sensor"] = sensor.get_state_text()
-		line["frame_ms"] = sensor.frame_ms
+		line["frame_ms"] = 1e3 * sensor.frame_time
 		if not _has_shown and sensor.get_objects().size() >= OBJECTS - 1:
 			_has_shown = true
 			line["seen"] = _seen(sensor)

@@ -294,7 +294,8 @@ func _problems_of_files(scene: Node, recorder: HapticRecorder) -> PackedStringAr
 	var found := _problems
 	for world: HapticWorld in scene.find_children("*", "HapticWorld", true, false):
 		found.append(world.get_inputs_problem())
-	found.append(recorder.get_problem())
+	if recorder.get_state() == HapticRecorder.STATE_FAILED:
+		found.append(recorder.get_state_text())
 	return PackedStringArray(Array(found).filter(func(text: String) -> bool: return not text.is_empty()))
 
 

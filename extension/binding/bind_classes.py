@@ -6,12 +6,16 @@ the editor never sees:
 
     class      header       the C++ header, below extension/; includes: others that statistics need
                was          the name that the class had: a class of its own, which scenes and scripts of before still find
+               statistics_of  the class whose statistics of this group are this one's properties
     method     cpp          the C++ member function, where it is not called alike
                hidden       bound, and no part of the public reference
+               was          the names that it had, separated by spaces: each calls it, with a warning
+               now          the name of the method that is called in place of this former one, which still works, with a warning
     member     range        the inspector's slider: "min,max,step" and Godot's or_greater, or_less, exp
                unit         of the value, shown behind it
                hint         any other Godot hint, "NAME:STRING"
-               usage        "EDITOR": shown and not stored; "STORAGE": stored and not shown
+               usage        "EDITOR": shown and not stored; "STORAGE": stored and not shown; "NONE": neither
+               now          the name of the property that is used in place of this former one, whose getter warns
                group        name and prefix of the group that begins here, "NAME:PREFIX"; subgroup: the same within it
                param        name of the setter's argument
     member that is stored as it is set (its class says TACTUS_PROPERTIES, nodes/properties.hpp)
@@ -23,12 +27,16 @@ the editor never sees:
                follows      "yes": the same is done when the resource that is the value says that it has changed
                was          the names that it had, separated by spaces; "Class.name" where it was another class's
                was_scale    what a number under its former name is multiplied by
+               A path to a node (NODE_PATH_VALID_TYPES) has a second property for scripts, NAME_node: the node itself.
     member     shown        a C++ condition, seen from the class: else the inspector does not show it (the class declares
                             _validate_property)
     constant   is           the C++ value that has to be the same number
                label        what the inspector shows
+               was          the name that it had, which scripts can still use
     statistics method, let, statistic: a Dictionary, each key with type, C++ value, and meaning; `if` is a condition,
                `needs` one without which it is empty
+    group      class: the statistics in it are properties of this class, which has a page of its own and a method here that
+               returns it; `name` is that of a property where it is not the key's
 
 Works with this binding and with godot-cpp alike.
 """
@@ -48,11 +56,13 @@ VARIANT_TYPES = {
 RESOURCES = {"Curve3D", "HapticVolume", "HapticForce", "HapticGuide", "HapticMaterial", "HapticPath", "MMTNetworkConditions", "MMTTuning", "Material", "Mesh", "Texture2D"}
 
 OWN_ATTRIBUTES = {
-    "class": ["header", "includes", "changed", "was"],
-    "method": ["cpp", "hidden"],
-    "member": ["range", "unit", "hint", "usage", "group", "subgroup", "param", "field", "min", "max", "scale", "was", "was_scale", "changed", "follows", "shown"],
-    "constant": ["is", "label"],
+    "class": ["header", "includes", "changed", "was", "statistics_of"],
+    "method": ["cpp", "hidden", "was", "now"],
+    "member": ["range", "unit", "hint", "usage", "group", "subgroup", "param", "field", "figure", "now", "min", "max", "scale", "was", "was_scale", "changed", "follows", "shown"],
+    "constant": ["is", "label", "was"],
 }
+# The unit that ends a key. Others say theirs in words.
+KEY_UNITS = {"_us": "μs", "_ms": "ms", "_s": "s", "_per_s": "1/s", "_mm": "mm", "_m": "m", "_n": "N", "_j": "J"}
 
 
 def quoted(text):
@@ -79,6 +89,20 @@ class ClassTable:
         self.path = path
         self.root = ElementTree.parse(path).getroot()
         self.name = self.root.get("name")
+        if owner := self.root.get("statistics_of"):
+            self.take_statistics(ElementTree.parse(path.with_name(owner + ".xml")).getroot())
+
+    def take_statistics(self, owner):
+        """Those of this group become properties."""
+        members = self.root.find("members")
+        for one in [one for group in owner.iter("group") if group.get("class") == self.name for one in group]:
+            key = one.get("key")
+            name = one.get("name", key)
+            unit = next((unit for end, unit in sorted(KEY_UNITS.items(), key=lambda pair: -len(pair[0])) if key.endswith(end)), "")
+            member = ElementTree.SubElement(
+                members, "member", name=name, type=one.get("type"), setter="", getter=f"get_{name}", figure=key, unit=unit, usage="READ_ONLY"
+            )
+            member.text = re.sub(r"\[(member|method|enum|constant) (\w+)\]", rf"[\1 {owner.get('name')}.\2]", one.text)
 
     def is_bound(self):
         return self.root.get("header") is not None
@@ -113,10 +137,11 @@ class ClassTable:
             lines += self.member(member, index, bound)
         lines += [self.signal(signal) for signal in self.all("signal")]
         for c in self.all("constant"):
-            lines.append(
-                f'ClassDB::bind_integer_constant(get_class_static(), "{c.get("enum", "")}", "{c.get("name")}", '
+            lines += [
+                f'ClassDB::bind_integer_constant(get_class_static(), "{c.get("enum", "")}", "{name}", '
                 f'{c.get("value")}, {"true" if c.get("is_bitfield") else "false"});'
-            )
+                for name in (c.get("name"), *c.get("was", "").split())
+            ]
         return f"void {self.name}::_bind_methods() {{\n" + "\n".join("    " + line for line in lines) + "\n}"
 
     def method(self, method):
@@ -129,7 +154,20 @@ class ClassTable:
         bind = "bind_method("
         if "static" in method.get("qualifiers", ""):
             bind = f'bind_static_method("{self.name}", '
-        return [f"ClassDB::{bind}D_METHOD({names}), &{self.name}::{function}{defaults});"]
+        if now := method.get("now"):
+            # One that is hidden is the getter of a former property.
+            of = "get_" if method.get("hidden") else ""
+            former = self.former(function, method.get("name").removeprefix(of), now.removeprefix(of))
+            return [f"ClassDB::bind_method(D_METHOD({names}), {former}{defaults});"]
+        lines = [f"ClassDB::{bind}D_METHOD({names}), &{self.name}::{function}{defaults});"]
+        for old in method.get("was", "").split():
+            former = self.former(function, old, method.get("name"))
+            lines.append(f"ClassDB::bind_method(D_METHOD({names.replace(quoted(method.get('name')), quoted(old), 1)}), {former}{defaults});")
+        return lines
+
+    def former(self, function, old, now):
+        """The C++ function that warns and calls this one."""
+        return f'former<&{self.name}::{function}, "{old}", "{now}">(&{self.name}::{function})'
 
     def member(self, member, index, bound):
         lines, name = [], member.get("name")
@@ -146,6 +184,8 @@ class ClassTable:
             setter, getter = setter or f"set_{name}", getter or f"get_{name}"
             set_by = f"&{self.name}::set_row<{index}>"
             get_by = f"&{self.name}::get_row<{index}, {self.value_type(member)}>"
+        if key := member.get("figure"):
+            get_by = f'&{self.name}::figure<"{key}", {self.value_type(member)}>'
         if member.get("follows"):
             lines.append(f'ClassDB::bind_method(D_METHOD("_{name}_changed"), &{self.name}::row_changed<{index}>);')
         param = member.get("param") or name
@@ -155,6 +195,13 @@ class ClassTable:
                 by = by or f"&{self.name}::{function}"
                 lines.append(f'ClassDB::bind_method(D_METHOD("{function}"{arguments}), {by});')
         lines.append(f'ADD_PROPERTY({self.property_info(member)}, "{setter}", "{getter}");')
+        if kind := self.node_type(member):
+            node = self.node_member(member)
+            lines += [
+                f'ClassDB::bind_method(D_METHOD("set_{name}_node", "node"), &{self.name}::set_node_row<{index}>);',
+                f'ClassDB::bind_method(D_METHOD("get_{name}_node"), &{self.name}::get_node_row<{index}, {kind}>);',
+                f'ADD_PROPERTY({self.property_info(node)}, "set_{name}_node", "get_{name}_node");',
+            ]
         for old in self.former_names(member):
             lines += [
                 f'ClassDB::bind_method(D_METHOD("set_{old}", "{old}"), &{self.name}::set_renamed<{index}>);',
@@ -162,6 +209,15 @@ class ClassTable:
                 f'ADD_PROPERTY({self.property_info(self.as_it_was(member, old))}, "set_{old}", "get_{old}");',
             ]
         return lines
+
+    @staticmethod
+    def node_type(member):
+        """Of the node that the path leads to; empty: it is no such path."""
+        return member.get("hint", "").partition("NODE_PATH_VALID_TYPES:")[2]
+
+    def node_member(self, member):
+        """The node that the path leads to, for scripts: neither shown nor stored."""
+        return ElementTree.Element("member", name=f"{member.get('name')}_node", type=self.node_type(member), usage="NONE")
 
     @staticmethod
     def former_names(member):
@@ -258,7 +314,8 @@ class ClassTable:
         return (
             f'        {{"{name}", "{was}", {limits},'
             f" [](const Owner& o) {{ return stored{seconds}(o.{field}); }},"
-            f" [](Owner& o, const Variant& x) {{ store{seconds}(o.{field}, x); }}, {changed}, {follows}, {member.get('was_scale', '1.0')}}},"
+            f" [](Owner& o, const Variant& x) {{ store{seconds}(o.{field}, x); }}, {changed}, {follows}, {member.get('was_scale', '1.0')},"
+            f' "{self.node_type(member)}"}},'
         )
 
     def wanted(self, member):
@@ -274,26 +331,49 @@ class ClassTable:
         return {"bool": "true or false"}.get(kind, f"a {kind}" + ("" if kind in VARIANT_TYPES else ", or none"))
 
     def statistics(self, statistics):
+        """The Dictionary of all, or of one group, and each group as an object."""
+        name, method = self.name, statistics.get("method")
+        groups = {group.get("class") for group in statistics.iter("group")}
         lines = [f"if (!({statistics.get('needs')})) {{", "    return Dictionary();", "}"] if statistics.get("needs") else []
         lines += [f"const auto& {let.get('name')} = {let.get('value')};" for let in statistics.findall("let")]
         lines.append("Dictionary d;")
-        condition = None
-        for one in statistics.findall("statistic"):
+        loose = self.figures(statistics)
+        lines += ["if (of.empty()) {", *("    " + line for line in loose), "}"] if groups and loose else loose
+        for one in statistics.findall("group"):
+            lines += [f'if (of.empty() || of == "{one.get("class")}") {{', *("    " + line for line in self.figures(one)), "}"]
+        lines.append("return d;")
+        body = "\n".join("    " + line for line in lines)
+        if not groups:
+            return f"Dictionary {name}::{method}() const {{\n{body}\n}}"
+        returned = {one.find("return").get("type"): one.get("name") for one in self.all("method")}
+        return "\n\n".join([
+            f"Dictionary {name}::figures(std::string_view of) const {{\n{body}\n}}",
+            f'Dictionary {name}::{method}() const {{\n    return figures("");\n}}',
+            *(
+                f'Ref<{group}> {name}::{returned[group]}() const {{\n    return HapticStatistics::of<{group}>(figures("{group}"));\n}}'
+                for group in sorted(groups)
+            ),
+        ])  # fmt: skip
+
+    @staticmethod
+    def figures(parent):
+        """The lines that put the statistics right below it into the Dictionary."""
+        lines, condition = [], None
+        for one in parent.findall("statistic"):
             if one.get("if") != condition:
                 lines += ["}"] if condition else []
                 condition = one.get("if")
                 lines += [f"if ({condition}) {{"] if condition else []
             cast = {"int": "static_cast<int64_t>", "float": "static_cast<double>"}.get(one.get("type"), "Variant")
             lines.append(f'd["{one.get("key")}"] = {cast}({one.get("value")});')
-        lines += ["}"] if condition else []
-        lines.append("return d;")
-        body = "\n".join("    " + line for line in lines)
-        return f"Dictionary {self.name}::{statistics.get('method')}() const {{\n{body}\n}}"
+        return lines + (["}"] if condition else [])
 
     @staticmethod
     def registration(tables):
         """The source that makes all these classes known to the engine."""
-        includes = ["nodes/register_types.hpp", *sorted(table.root.get("header") for table in tables)]
+        includes = ["nodes/register_types.hpp", *sorted({table.root.get("header") for table in tables})]
+        own = {table.name for table in tables}
+        tables = sorted(tables, key=lambda table: table.root.get("inherits") in own)  # a class after the one that it extends
         renamed = [table for table in tables if table.old_name()]
         return "\n".join([
             "// Generated by extension/binding/bind_classes.py from extension/doc_classes/.",
@@ -321,20 +401,47 @@ class ClassTable:
         root = copy.deepcopy(self.root)
         for statistics in list(root.iter("statistics")):
             description = root.find(f"methods/method[@name='{statistics.get('method')}']/description")
-            lines = [f"[code]{one.get('key')}[/code]: {one.text.strip()}" for one in statistics.findall("statistic")]
+            lines = [f"[code]{one.get('key')}[/code]: {one.text.strip()}" for one in statistics.iter("statistic")]
             description.text = description.text.rstrip() + "\n\t\t\t\t" + "\n\t\t\t\t".join(lines) + "\n\t\t\t"
             root.remove(statistics)
         for methods in root.iter("methods"):
             for method in methods.findall("method[@hidden]"):
                 methods.remove(method)
+            for method in methods.findall("method[@now]"):
+                method.set("deprecated", f"Use [method {method.get('now')}] instead.")
+            for method in methods.findall("method[@was]"):
+                for old in method.get("was").split():
+                    former = copy.deepcopy(method)
+                    former.attrib.update(name=old, deprecated=f"Use [method {method.get('name')}] instead.")
+                    former.find("description").text = f"The former name of [method {method.get('name')}]."
+                    methods.append(former)
+        for constants in root.iter("constants"):
+            for constant in constants.findall("constant[@was]"):
+                for old in constant.get("was").split():
+                    deprecated = f"Use [constant {constant.get('name')}] instead."
+                    former = ElementTree.SubElement(constants, "constant", {**constant.attrib, "name": old, "deprecated": deprecated})
+                    former.text = f"The former name of [constant {constant.get('name')}]."
         for member in root.iter("member"):
-            if limits := self.limits(member, " to "):
+            if now := member.get("now"):
+                member.set("deprecated", f"Use [member {now}] instead.")
+            if member.get("figure"):
+                member.text = member.text.rstrip() + (f"\n\t\t\t[b]Unit:[/b] {member.get('unit')}.\n\t\t" if member.get("unit") else "")
+            elif limits := self.limits(member, " to "):
                 member.text = member.text.rstrip() + f"\n\t\t\t[b]Range:[/b] {limits}.\n\t\t"
             if member.get("field"):
                 member.set("setter", member.get("setter") or f"set_{member.get('name')}")
                 member.set("getter", member.get("getter") or f"get_{member.get('name')}")
         for members in root.iter("members"):
             for member in list(members):
+                name = member.get("name")
+                if kind := self.node_type(member):
+                    accessors = {"setter": f"set_{name}_node", "getter": f"get_{name}_node"}
+                    node = ElementTree.SubElement(members, "member", {"name": f"{name}_node", "type": kind, **accessors})
+                    node.text = (
+                        f"The node that [member {name}] leads to, or [code]null[/code]. Setting it makes [member {name}] the path to it. "
+                        "Both nodes need one scene tree, or one node above them; a node that moves in the tree later is not followed. "
+                        f"Scenes store the path alone."
+                    )
                 for old in self.former_names(member):
                     accessors = {"setter": f"set_{old}", "getter": f"get_{old}", "deprecated": f"Use [member {member.get('name')}] instead."}
                     former = ElementTree.SubElement(members, "member", {**member.attrib, "name": old, **accessors})

@@ -180,7 +180,7 @@ void HapticDepthSensor::pass_on_settings() {
         return;
     }
     settings_.camera = pose_of(get_global_transform());
-    settings_.camera_delay = source_ == SOURCE_CAMERA ? 1e-3 * camera_delay_ : 0.0;
+    settings_.camera_delay = source_ == SOURCE_CAMERA ? image_delay_ : 0.0;
     settings_.wants_cloud = looks_.show_cloud;
     settings_.wants_surface = touches_cloud();
     sensor_->set_settings(settings_);

@@ -9,6 +9,7 @@
 #include <godot_cpp/variant/typed_array.hpp>
 #include <memory>
 #include <optional>
+#include <string_view>
 
 #include "nodes/properties.hpp"
 #include "nodes/seen_bodies.hpp"
@@ -16,6 +17,8 @@
 #include "world/sensing_library.hpp"
 
 namespace tactus {
+
+class HapticSensingStatistics;
 
 // The eyes: a depth camera, or a recording of one, in; known objects with their poses out. Its transform is
 // where the camera is. What looks is a library of its own with a thread of its own
@@ -40,6 +43,8 @@ public:
     godot::TypedArray<godot::Dictionary> get_objects() const;
     godot::Dictionary get_plane() const;
     godot::Dictionary get_statistics() const;
+    godot::Ref<HapticSensingStatistics> get_sensing_statistics() const;
+    double get_frame_time() const { return sight().times.frame; }
     double get_frame_ms() const { return 1e3 * sight().times.frame; }
     double get_lowest_confidence() const { return lowest_confidence(sight()); }
     static godot::Dictionary find_cameras();
@@ -59,6 +64,8 @@ protected:
     void _validate_property(godot::PropertyInfo& property) const;
 
 private:
+    // Of the statistics that are in this class; empty: all.
+    godot::Dictionary figures(std::string_view of) const;
     void source_changed();
     void library_changed();
     void pictures_changed();
@@ -89,8 +96,8 @@ private:
     double synthetic_depth_error_ = 0.01;
     SyntheticCamera synthetic_;  // with the width of any camera
     godot::PackedStringArray meshes_;
-    SensorSettings settings_;    // as far as they are properties
-    double camera_delay_ = 0.0;  // (unit: milliseconds)
+    SensorSettings settings_;   // as far as they are properties
+    double image_delay_ = 0.0;  // (unit: seconds)
     SeenBodies::Looks looks_;
 
     OwnedSensor sensor_;  // null: nothing is looked at

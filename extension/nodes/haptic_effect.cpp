@@ -95,10 +95,11 @@ bool HapticEffect::begin_frame() {
 }
 
 bool HapticEffect::end_frame() {
-    if (enabled_ && budget_.is_overdrawn(to_seconds(taken_), 1e-3 * budget_ms_)) {
-        switch_off("its script took " + String::num(get_time_ms(), 1) +
-                   " ms in a frame, more than its budget of " + String::num(budget_ms_, 1) +
-                   " ms: it is switched off; make it shorter or raise 'budget_ms', and switch 'enabled' on");
+    if (enabled_ && budget_.is_overdrawn(to_seconds(taken_), time_budget_)) {
+        switch_off(
+            "its script took " + String::num(get_time_ms(), 1) + " ms in a frame, more than its budget of " +
+            String::num(1e3 * time_budget_, 1) +
+            " ms: it is switched off; make it shorter or raise 'time_budget', and switch 'enabled' on");
     }
     return enabled_;
 }

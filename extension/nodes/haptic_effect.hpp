@@ -26,6 +26,7 @@ public:
 
     State get_state() const;
     godot::String get_state_text() const;
+    double get_duration() const { return to_seconds(taken_); }
     double get_time_ms() const { return 1e3 * to_seconds(taken_); }
 
     godot::PackedStringArray _get_configuration_warnings() const override;
@@ -53,7 +54,7 @@ private:
     godot::NodePath proxy_;
     godot::Ref<HapticForce> formula_;
     godot::String method_ = "_get_force";
-    double budget_ms_ = 1.0;
+    double time_budget_ = 1e-3;  // (unit: seconds)
     bool enabled_ = true;
 
     godot::String why_off_;  // by itself; empty: it is not

@@ -17,7 +17,7 @@ namespace tactus {
 using namespace godot;
 
 HapticRecorder::~HapticRecorder() {
-    stop();
+    close();
 }
 
 const ProxyPointer* HapticRecorder::proxy_node() const {
@@ -54,8 +54,49 @@ PackedStringArray HapticRecorder::_get_configuration_warnings() const {
     return warnings;
 }
 
+PackedStringArray HapticRecorder::get_problems() const {
+    PackedStringArray problems = _get_configuration_warnings();
+    if (const String last = get_problem(); !last.is_empty()) {
+        problems.push_back(last);
+    }
+    return problems;
+}
+
+HapticRecorder::State HapticRecorder::get_state() const {
+    if (!get_problem().is_empty()) {
+        return STATE_FAILED;
+    }
+    return state_of<State>(is_recording() && !problem().is_empty(), is_recording() && get_rows() > 0,
+                           is_recording());
+}
+
+String HapticRecorder::get_state_text() const {
+    if (const String last = get_problem(); !last.is_empty()) {
+        return last;
+    }
+    switch (get_state()) {
+        case STATE_OFF:
+            return recording_ == nullptr ? String("off")
+                                         : "ended, with " + String::num_int64(get_rows()) + " rows";
+        case STATE_FAILED:
+            return problem();
+        case STATE_WAITING:
+            return HapticWorld::of(this) == nullptr ? "no HapticWorld is running above this node"
+                                                    : "waits for a tick of its proxy";
+        case STATE_WORKING:
+            return "recording";
+    }
+    return String();
+}
+
 bool HapticRecorder::start() {
-    stop();
+    const bool has_begun = open();
+    tell_state();
+    return has_begun;
+}
+
+bool HapticRecorder::open() {
+    close();
     recording_.reset();
     not_started_ = String();
     const auto say = [this](const std::string& what) {
@@ -71,6 +112,11 @@ bool HapticRecorder::start() {
 }
 
 void HapticRecorder::stop() {
+    close();
+    tell_state();
+}
+
+void HapticRecorder::close() {
     if (is_recording()) {
         HapticWorld::finish_recording(*this);
         recording_->close();

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <godot_cpp/classes/node.hpp>
+#include <godot_cpp/core/binder_common.hpp>
 #include <godot_cpp/variant/node_path.hpp>
 #include <memory>
 
+#include "nodes/node_state.hpp"
 #include "nodes/properties.hpp"
 #include "world/recording.hpp"
 
@@ -20,8 +22,13 @@ public:
     HapticRecorder() = default;
     ~HapticRecorder() override;
 
+    enum State { STATE_OFF, STATE_FAILED, STATE_WAITING, STATE_WORKING };
+
     TACTUS_PROPERTIES(HapticRecorder)
 
+    State get_state() const;
+    godot::String get_state_text() const;
+    godot::PackedStringArray get_problems() const;
     bool start();
     void stop();
     bool is_recording() const { return recording_ != nullptr && recording_->is_open(); }
@@ -40,6 +47,7 @@ public:
     const ProxyPointer* proxy_node() const;
     const godot::Node* object_node() const;
     godot::String problem() const;  // empty where there is none
+    void tell_state() { told_.tell(*this); }
     const std::shared_ptr<Recording>& recording() const { return recording_; }
 
 protected:
@@ -47,6 +55,8 @@ protected:
     void _notification(int what);
 
 private:
+    bool open();
+    void close();
     bool has_file() const { return !(csv_path_.is_empty() && trace_path_.is_empty()); }
 
     godot::NodePath proxy_;
@@ -58,6 +68,9 @@ private:
 
     godot::String not_started_;             // why the last start opened no file
     std::shared_ptr<Recording> recording_;  // the last one, when it has ended; null: none yet
+    ToldState<State> told_;
 };
 
 }  // namespace tactus
+
+VARIANT_ENUM_CAST(tactus::HapticRecorder::State);

@@ -30,7 +30,7 @@ public:
         STATUS_TOUCHING = tool_touching,
         STATUS_SLIDING = tool_sliding,
         STATUS_UNFINISHED = tool_unfinished,
-        STATUS_SQUEEZED = tool_squeezed,
+        STATUS_PINCHED = tool_squeezed,
         STATUS_TURN_FIXED = tool_turn_fixed,
         STATUS_WRIST_LOOSE = tool_wrist_loose
     };

@@ -146,6 +146,7 @@ void HapticWorld::start() {
             name_of(*this), ": it stands inside another HapticWorld, ", name_of(*outer),
             ", and stays inactive; what is in it belongs to the outer one. Remove one of "
             "the two, or put them side by side.");
+        told_.tell(*this);
         return;
     }
     RunSettings settings;
@@ -219,7 +220,9 @@ void HapticWorld::start_loop() {
         loop_changed();  // in the next frame, again
         return;
     }
-    if (const std::string error = run_->loop().start(loop_settings(), measure_baseline_); !error.empty()) {
+    const std::string error = run_->loop().start(loop_settings(), measure_baseline_);
+    loop_error_ = to_godot(error);
+    if (!error.empty()) {
         UtilityFunctions::push_error(name_of(*this), ": the haptic loop could not start: ", to_godot(error),
                                      ".");
     }
@@ -233,7 +236,9 @@ void HapticWorld::stop() {
     run_->end();
     let_go_of_former();
     discard_run(std::move(run_));
+    loop_error_ = String();
     post_signal(*this, "stopped");
+    told_.tell(*this);
 }
 
 void HapticWorld::let_go_of_former() {
@@ -288,6 +293,7 @@ void HapticWorld::_notification(int what) {
         case NOTIFICATION_PAUSED:
             if (run_ != nullptr) {
                 run_->pause();
+                told_.tell(*this);
             }
             break;
         case NOTIFICATION_UNPAUSED:
@@ -346,6 +352,7 @@ void HapticWorld::process(double seconds) {
         loop_changed();
     }
     report_status(seconds);
+    told_.tell(*this);
     run->show();
     run->ask_effects();
 }
@@ -373,6 +380,7 @@ int64_t HapticWorld::advance(double seconds) {
     let_go_of_former();
     const int64_t ticks = run->running().advance(seconds);
     report_status(seconds);
+    told_.tell(*this);
     run->show();
     run->ask_effects();
     deliver_signals();  // last: what they call may free this node
@@ -400,6 +408,30 @@ double HapticWorld::get_time() const {
     return run_ != nullptr ? to_seconds(run_->loop().now()) : 0.0;
 }
 
+HapticWorld::State HapticWorld::get_state() const {
+    const bool is_inside_other = is_inside_tree() && !is_edited() && above(this) != nullptr;
+    const bool works = run_ != nullptr && (clock_ == CLOCK_STEPPED || run_->loop().is_running());
+    return tactus::state_of<State>(is_inside_other || !loop_error_.is_empty(), works, run_ != nullptr);
+}
+
+String HapticWorld::get_state_text() const {
+    switch (get_state()) {
+        case STATE_OFF:
+            return "off";
+        case STATE_FAILED:
+            return loop_error_.is_empty()
+                       ? String(
+                             "it stands inside another HapticWorld: remove one of the two, or put them "
+                             "side by side")
+                       : loop_error_;
+        case STATE_WAITING:
+            return can_process() ? String("waits for the triangle trees of its bodies") : String("paused");
+        case STATE_WORKING:
+            return "working";
+    }
+    return String();
+}
+
 void HapticWorld::reset_statistics() {
     if (run_ == nullptr) {
         return;
@@ -420,7 +452,14 @@ Dictionary HapticWorld::get_baseline_period_distribution() const {
 }
 
 PackedStringArray HapticWorld::get_problems() const {
-    return run_ != nullptr ? to_godot(run_->problems()) : PackedStringArray();
+    if (run_ == nullptr) {
+        return _get_configuration_warnings();
+    }
+    PackedStringArray problems = to_godot(run_->problems());
+    if (!inputs_problem_.is_empty()) {
+        problems.push_back(inputs_problem_);
+    }
+    return problems;
 }
 
 PackedStringArray HapticWorld::_get_configuration_warnings() const {

@@ -7,10 +7,12 @@
 #include <godot_cpp/variant/dictionary.hpp>
 #include <godot_cpp/variant/typed_array.hpp>
 #include <memory>
+#include <string_view>
 
 #include "core/haptics/touch_material.hpp"
 #include "core/teleop/seen_pose.hpp"
 #include "nodes/haptic_material.hpp"
+#include "nodes/node_state.hpp"
 #include "nodes/properties.hpp"
 #include "realtime/tick_loop.hpp"
 #include "world/body_queries.hpp"
@@ -18,7 +20,9 @@
 
 namespace tactus {
 
+class HapticLoadStatistics;
 class HapticRecorder;
+class HapticTimingStatistics;
 class InputRecording;
 class WorldRun;
 struct BodyPush;
@@ -31,6 +35,7 @@ class HapticWorld : public godot::Node3D {
 public:
     enum Clock : int64_t { CLOCK_REAL_TIME, CLOCK_STEPPED };
     enum Authority : int64_t { AUTHORITY_HAPTIC, AUTHORITY_GODOT };
+    enum State { STATE_OFF, STATE_FAILED, STATE_WAITING, STATE_WORKING };
 
     HapticWorld();
     ~HapticWorld() override;
@@ -41,7 +46,11 @@ public:
     bool is_running() const { return run_ != nullptr; }
     int64_t get_ticks() const;
     double get_time() const;
+    State get_state() const;
+    godot::String get_state_text() const;
     godot::Dictionary get_statistics() const;
+    godot::Ref<HapticLoadStatistics> get_load_statistics() const;
+    godot::Ref<HapticTimingStatistics> get_timing_statistics() const;
     void reset_statistics();
     godot::Dictionary get_period_distribution() const;
     godot::Dictionary get_baseline_period_distribution() const;
@@ -119,6 +128,8 @@ private:
     void node_added(const godot::Variant& node);
     void node_removed(const godot::Variant& node);
     void report_status(double seconds);
+    // Of the statistics that are in this class; empty: all.
+    godot::Dictionary figures(std::string_view of) const;
 
     int tick_rate_ = 1000;
     Clock clock_ = CLOCK_REAL_TIME;
@@ -137,6 +148,10 @@ private:
     std::shared_ptr<WorldRun> former_;  // before it started anew, until its trees are in the new one
     Change change_ = Change::none;
     double since_report_ = 0.0;  // (unit: seconds)
+    godot::String loop_error_;   // why the haptic thread could not start
+    ToldState<State> told_;
 };
 
 }  // namespace tactus
+
+VARIANT_ENUM_CAST(tactus::HapticWorld::State);

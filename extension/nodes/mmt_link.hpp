@@ -8,6 +8,7 @@
 #include <godot_cpp/variant/typed_array.hpp>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <vector>
 
@@ -21,6 +22,10 @@
 namespace tactus {
 
 class HapticWorld;
+class MMTModelStatistics;
+class MMTNetworkStatistics;
+class MMTPassivityStatistics;
+class MMTPlayoutStatistics;
 struct ModelNews;
 
 // Touch over a network: makes the HapticWorld above it the operator's side or the far side of a
@@ -59,6 +64,10 @@ public:
     bool is_peer_connected() const { return report_.state == LinkState::connected; }
     godot::TypedArray<godot::Dictionary> get_ghosts() const;
     godot::Dictionary get_statistics() const;
+    godot::Ref<MMTModelStatistics> get_model_statistics() const;
+    godot::Ref<MMTNetworkStatistics> get_network_statistics() const;
+    godot::Ref<MMTPassivityStatistics> get_passivity_statistics() const;
+    godot::Ref<MMTPlayoutStatistics> get_playout_statistics() const;
     godot::PackedStringArray _get_configuration_warnings() const override;
 
     // --- for the world that runs it
@@ -89,6 +98,8 @@ protected:
     bool _set(const godot::StringName& name, const godot::Variant& value);
 
 private:
+    // Of the statistics that are in this class; empty: all.
+    godot::Dictionary figures(std::string_view of) const;
     void changed();
     void show_ghosts();
     void restart_world();

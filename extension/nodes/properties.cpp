@@ -71,6 +71,32 @@ bool accepts(const Object& who, const char* property, const PropertyLimits& limi
     return allowed;
 }
 
+std::optional<NodePath> path_to(const Node& from, const char* property, const char* class_name,
+                                const Variant& value) {
+    const std::string name = std::string(property) + "_node";
+    const std::string wanted = std::string("a ") + class_name + ", or null";
+    if (!accepts(from, name.c_str(),
+                 {.type = Variant::OBJECT, .class_name = class_name, .wanted = wanted.c_str()}, value)) {
+        return std::nullopt;
+    }
+    Node* const to = Object::cast_to<Node>(value.get_validated_object());
+    if (to == nullptr) {
+        return NodePath();
+    }
+    const auto topmost = [](const Node* node) {
+        while (node->get_parent() != nullptr) {
+            node = node->get_parent();
+        }
+        return node;
+    };
+    if (topmost(&from) != topmost(to)) {
+        refuse(from, name.c_str(), value,
+               "in the same scene tree: add both nodes to it, or to one node, before this is set");
+        return std::nullopt;
+    }
+    return from.get_path_to(to);
+}
+
 void follow_changes(Object& who, const char* method, const Variant& before, const Variant& now) {
     const Callable on_change(&who, method);
     if (auto* left = Object::cast_to<Resource>(before.get_validated_object());

@@ -3,9 +3,13 @@
 // TACTUS_PROPERTIES(Class) among its public members and nothing more.
 #pragma once
 
+#include <algorithm>
+#include <godot_cpp/classes/node.hpp>
 #include <godot_cpp/core/binder_common.hpp>
 #include <godot_cpp/core/object.hpp>
+#include <godot_cpp/variant/node_path.hpp>
 #include <godot_cpp/variant/variant.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -35,6 +39,14 @@ struct Property {
     void (*changed)(Owner&) = nullptr;  // null: nobody has to know
     const char* follows = "";           // the method that hears of changes inside of the resource
     double was_scale = 1.0;             // a number under a former name times this is the number now
+    const char* node = "";              // the class of the nodes that the path leads to
+};
+
+// A text as an argument of a template.
+template <std::size_t size>
+struct FixedText {
+    consteval FixedText(const char (&from)[size]) { std::copy_n(from, size, text); }
+    char text[size] = {};
 };
 
 // Whether the value may be set; says why not.
@@ -124,6 +136,28 @@ godot::Variant get_property(const Owner& owner, int64_t index) {
     return property != nullptr ? property->read(owner) : godot::Variant();
 }
 
+// The path from a node to the one in the Variant, empty for null. None where it is refused: it is no node of
+// this class, or no node stands above both.
+std::optional<godot::NodePath> path_to(const godot::Node& from, const char* property, const char* class_name,
+                                       const godot::Variant& node);
+
+// A property that is a path, by the node that it leads to.
+template <class Owner>
+void set_node_property(Owner& owner, int64_t index, const godot::Variant& node) {
+    const Property<Owner>& property = *property_at<Owner>(index);
+    if (const auto path = path_to(owner, property.name, property.node, node)) {
+        set_property(owner, index, *path);
+    }
+}
+
+// Null: it is empty, leads nowhere, or to another kind.
+template <class NodeType, class Owner>
+NodeType* get_node_property(const Owner& owner, int64_t index) {
+    const auto path = static_cast<godot::NodePath>(get_property(owner, index));
+    const bool can_follow = !path.is_empty() && (owner.is_inside_tree() || !path.is_absolute());
+    return can_follow ? godot::Object::cast_to<NodeType>(owner.get_node_or_null(path)) : nullptr;
+}
+
 // A class or a property of an older scene or script was met under a former name. Warns once of each name,
 // from any thread.
 void warn_of_rename(const std::string& old, const std::string& now);
@@ -153,6 +187,27 @@ inline godot::Variant scaled(const godot::Variant& value, double factor) {
 
 }  // namespace tactus
 
+// Under its former name, a method is a second one that warns.
+#define TACTUS_FORMER_METHODS(Class)                                                                       \
+    template <auto method, tactus::FixedText was, tactus::FixedText now, class Result, class... Arguments> \
+    Result call_former(Arguments... arguments) {                                                           \
+        tactus::warn_of_former_name(get_class_static(), was.text, now.text);                               \
+        return (this->*method)(arguments...);                                                              \
+    }                                                                                                      \
+    template <auto method, tactus::FixedText was, tactus::FixedText now, class Result, class... Arguments> \
+    Result call_const_former(Arguments... arguments) const {                                               \
+        tactus::warn_of_former_name(get_class_static(), was.text, now.text);                               \
+        return (this->*method)(arguments...);                                                              \
+    }                                                                                                      \
+    template <auto method, tactus::FixedText was, tactus::FixedText now, class Result, class... Arguments> \
+    static constexpr auto former(Result (Class::*)(Arguments...)) {                                        \
+        return &Class::template call_former<method, was, now, Result, Arguments...>;                       \
+    }                                                                                                      \
+    template <auto method, tactus::FixedText was, tactus::FixedText now, class Result, class... Arguments> \
+    static constexpr auto former(Result (Class::*)(Arguments...) const) {                                  \
+        return &Class::template call_const_former<method, was, now, Result, Arguments...>;                 \
+    }
+
 // By the number of its row. What is read is typed as the property is, and a typed script knows the property
 // by that; what is set comes as it is, so that a value of another type is refused in words and not by Godot
 // in silence. Under its former name, a property is a second one that warns.
@@ -171,6 +226,14 @@ inline godot::Variant scaled(const godot::Variant& value, double factor) {
         return godot::VariantCaster<Value>::cast(tactus::get_property(*this, row));                        \
     }                                                                                                      \
     template <int64_t row>                                                                                 \
+    void set_node_row(const godot::Variant& node) {                                                        \
+        tactus::set_node_property(*this, row, node);                                                       \
+    }                                                                                                      \
+    template <int64_t row, class NodeType>                                                                 \
+    NodeType* get_node_row() const {                                                                       \
+        return tactus::get_node_property<NodeType>(*this, row);                                            \
+    }                                                                                                      \
+    template <int64_t row>                                                                                 \
     void set_renamed(const godot::Variant& value) {                                                        \
         tactus::warn_of_former_name(get_class_static(), properties()[row].was, properties()[row].name);    \
         set_row<row>(tactus::scaled(value, properties()[row].was_scale));                                  \
@@ -180,4 +243,5 @@ inline godot::Variant scaled(const godot::Variant& value, double factor) {
         tactus::warn_of_former_name(get_class_static(), properties()[row].was, properties()[row].name);    \
         const double scale = 1.0 / properties()[row].was_scale;                                            \
         return godot::VariantCaster<Value>::cast(tactus::scaled(tactus::get_property(*this, row), scale)); \
-    }
+    }                                                                                                      \
+    TACTUS_FORMER_METHODS(Class)

@@ -27,7 +27,7 @@ public:
         STATUS_TOUCHING = proxy_touching,
         STATUS_SLIDING = proxy_sliding,
         STATUS_UNFINISHED = proxy_unfinished,
-        STATUS_SQUEEZED = proxy_squeezed
+        STATUS_PINCHED = proxy_squeezed
     };
 
     enum State : int64_t { STATE_OFF, STATE_FAILED, STATE_WAITING, STATE_WORKING };
@@ -43,8 +43,8 @@ public:
     bool is_present() const {
         return state_.handle != no_handle && !has(proxy_absent) && !has(touch_unheld | far_hand_away);
     }
-    bool is_being_let_out() const { return has(proxy_letting_out); }
-    bool is_squeezed() const { return has(proxy_squeezed); }
+    bool is_depenetrating() const { return has(proxy_letting_out); }
+    bool is_pinched() const { return has(proxy_squeezed); }
     bool is_field_limited() const { return has(touch_field_limited); }
     godot::BitField<Status> get_status() const { return static_cast<Status>(state_.status); }
     double get_residual() const { return state_.residual; }

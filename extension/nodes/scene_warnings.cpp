@@ -52,7 +52,7 @@ void look_in_editor(Node& node, Watched& memory) {
     if (begin < memory.not_before) {
         return;
     }
-    const PackedStringArray now = node.call("get_warnings");
+    const PackedStringArray now = node._get_configuration_warnings();
     const std::uint64_t end = Time::get_singleton()->get_ticks_msec();
     memory.not_before = end + max_share * (end - begin);
     if (!(now == memory.said)) {

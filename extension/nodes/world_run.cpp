@@ -245,6 +245,7 @@ void WorldRun::synchronise_recorders() {
             complaints_.say(*recorder, "another HapticRecorder, " + name_of(*node_of_id<Node>(recorder_)) +
                                            ", records this world already: stop that one first");
         }
+        recorder->tell_state();
     }
 }
 

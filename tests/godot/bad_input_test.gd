@@ -20,7 +20,7 @@ func _problem_beside_a_sound_floor(bad: CollisionObject3D, expected: String) -> 
 			world.get_problems()[0].contains("Bad") and world.get_problems()[0].contains(expected),
 			world.get_problems()[0]
 		)
-	check(" ".join(world.get_warnings()).contains("'Bad'"), "no configuration warning names it")
+	check(" ".join(world._list_warnings()).contains("'Bad'"), "no configuration warning names it")
 
 
 func _with_mesh(mesh: Mesh, library_mesh := "") -> StaticBody3D:
@@ -156,11 +156,11 @@ func test_a_proxy_whose_scene_gives_it_a_negative_radius() -> void:
 	add_child(proxy)
 	check_equal(proxy.radius, 0.01, "radius")
 	check(
-		" ".join(proxy.get_warnings()).contains("'Finger' was given a radius that is no length above 0"),
-		"no warning names it: %s" % [proxy.get_warnings()]
+		" ".join(proxy.get_problems()).contains("'Finger' was given a radius that is no length above 0"),
+		"no warning names it: %s" % [proxy.get_problems()]
 	)
 	proxy.radius = 0.02
-	check(not " ".join(proxy.get_warnings()).contains("radius"), "it still warns")
+	check(not " ".join(proxy.get_problems()).contains("radius"), "it still warns")
 
 
 func test_a_problem_that_is_repaired_is_gone() -> void:

@@ -272,5 +272,5 @@ func test_a_mesh_without_a_mass_in_the_library_says_so() -> void:
 	var mesh := HapticMesh.new()
 	mesh.use_library_mass = true
 	mesh.mesh = BoxMesh.new()
-	check(" ".join(mesh.get_warnings()).contains("gives its body no mass"), "no warning")
+	check(" ".join(mesh.get_problems()).contains("gives its body no mass"), "no warning")
 	mesh.free()

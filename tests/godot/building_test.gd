@@ -64,7 +64,7 @@ func test_over_a_million_triangles_come_without_a_long_frame() -> void:
 	check(longest < 0.5 * built, "a frame of %d µs in a build of %d µs" % [longest, built])
 	var proxy: ProxyPointer = world.get_node("Proxy")
 	# It has come to be where the hand is already: it is touched once the hand has been out of it.
-	check(await until(func() -> bool: return proxy.is_being_let_out(), 5.0), "not noticed")
+	check(await until(func() -> bool: return proxy.is_depenetrating(), 5.0), "not noticed")
 
 
 func test_until_it_is_built_a_body_is_absent_and_the_rest_goes_on() -> void:

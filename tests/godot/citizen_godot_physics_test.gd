@@ -126,7 +126,7 @@ func _is_said(row: Dictionary) -> bool:
 		world.add_child(node)
 		world.advance(TICK)
 		var problems := "\n".join(world.get_problems())
-		var warnings := "\n".join(world.get_warnings())
+		var warnings := "\n".join(world._list_warnings())
 		world.free()
 		if problems.contains("Used") and warnings.contains("'Used'"):
 			return true
@@ -189,7 +189,7 @@ func test_nothing_is_said_of_areas_that_only_mark_a_place() -> void:
 		world.add_child(coin)
 	world.advance(TICK)
 	check_equal(Array(world.get_problems()), [], "problems")
-	check_equal(Array(world.get_warnings()), [], "warnings")
+	check_equal(Array(world._list_warnings()), [], "warnings")
 
 
 func test_what_stands_across_the_border_is_said() -> void:

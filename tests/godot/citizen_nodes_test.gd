@@ -46,7 +46,7 @@ func _world_with_body() -> HapticWorld:
 
 
 func _warnings(world: HapticWorld) -> String:
-	return "\n".join(world.get_warnings())
+	return "\n".join(world._list_warnings())
 
 
 func test_a_world_that_is_the_root_of_its_scene_warns_of_nothing() -> void:

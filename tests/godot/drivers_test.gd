@@ -51,7 +51,7 @@ func test_a_falcon_says_what_it_needs() -> void:
 	device.firmware = "user://nowhere.bin"
 	world.advance(0.01)
 	check("nowhere.bin" in device.get_state_text(), "without the file it says: %s" % device.get_state_text())
-	check(device.get_warnings().size() > 0, "no warning")
+	check(device.get_problems().size() > 0, "no warning")
 
 
 ## A scripted hand presses the six walls in turn.

@@ -37,8 +37,8 @@ func _process(_delta: float) -> void:
 	_touched = _touched or proxy.is_touching()
 	if _frames == 60:
 		print("LOOK ", JSON.stringify({"editor": Engine.is_editor_hint(), "running": world.is_running(),
-			"ticks": world.get_ticks(), "warnings": world.get_warnings(), "touched": _touched,
-			"device": world.get_node("HapticDevice").get_warnings()}))
+			"ticks": world.get_ticks(), "warnings": world.get_problems(), "touched": _touched,
+			"device": world.get_node("HapticDevice").get_problems()}))
 """
 
 ## A node for each fault that the editor knows of, and what its warning says; the ball moves meanwhile.
@@ -95,8 +95,8 @@ func _on_changed(node: Node) -> void:
 func _say(mark: String) -> void:
 	var said := {"told": _told}
 	for node in get_parent().find_children("*", "", true, false):
-		if node.has_method("get_warnings"):
-			said[node.name] = " ".join(node.get_warnings())
+		if node.has_method("get_problems"):
+			said[node.name] = " ".join(node.get_problems())
 	print(mark, JSON.stringify(said))
 
 func _process(_delta: float) -> void:

@@ -52,7 +52,7 @@ func test_slices_of_densities_are_touched_as_they_look() -> void:
 	field.voxel_size = Vector3(0.02, 0.01, 0.02)
 	field.iso_value = 0.25
 	field.solid_above = true
-	check_equal(field.get_problem(), "", "problem")
+	check_equal(Array(field.get_problems()), [], "problems")
 	var world := add_world()
 	world.add_child(_body_of(field))
 	var proxy := add_hand(world, path(Vector3(0, 0.2, 0), Vector3(0, 0.02, 0)))
@@ -98,7 +98,10 @@ func test_what_is_no_field_is_said() -> void:
 	]:
 		var field := _ball(0.08)
 		case[0].call(field)
-		check(field.get_problem().contains(case[1]), "'%s' says '%s'" % [case[1], field.get_problem()])
+		check(
+			"\n".join(field.get_problems()).contains(case[1]),
+			"'%s' says '%s'" % [case[1], field.get_problems()]
+		)
 		check_equal(field.create_mesh().get_surface_count(), 0, "surfaces to look at")
 
 
@@ -107,9 +110,12 @@ func test_slices_of_different_sizes_are_said() -> void:
 	field.slices = [
 		Image.create_empty(4, 4, false, Image.FORMAT_L8), Image.create_empty(4, 5, false, Image.FORMAT_L8)
 	]
-	check(field.get_problem().contains("has 16 values, and its size asks for 32"), field.get_problem())
+	check(
+		"\n".join(field.get_problems()).contains("has 16 values, and its size asks for 32"),
+		str(field.get_problems())
+	)
 	field.slices = [null, null]
-	check(field.get_problem().contains("two samples along an axis"), field.get_problem())
+	check("\n".join(field.get_problems()).contains("two samples along an axis"), str(field.get_problems()))
 
 
 ## On its path the hand feels its way over one volume and pushes the other.

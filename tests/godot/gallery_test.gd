@@ -41,10 +41,10 @@ class Complaints:
 func _warnings(scene: Node) -> PackedStringArray:
 	var warnings := PackedStringArray()
 	for node: Node in scene.find_children("*", "", true, false):
-		if node.has_method("get_warnings"):
-			warnings.append_array(node.get_warnings())
+		if node.has_method("get_problems"):
+			warnings.append_array(node.get_problems())
 		if node is HapticWorld:
-			warnings.append_array((node as HapticWorld).get_problems())
+			warnings.append_array((node as HapticWorld)._list_warnings())
 	return warnings
 
 

@@ -28,7 +28,7 @@ func test_a_guide_pulls_the_hand_to_where_it_leads() -> void:
 		[_guide(HapticGuide.FORM_POINT, [Vector3(0, 0.2, 0)]), Vector3.ZERO]
 	]:
 		var guide: HapticGuide = case[0]
-		check_equal(guide.get_problem(), "", "problem")
+		check_equal(Array(guide.get_problems()), [], "problems")
 		var world := add_world()
 		var proxy := _hand_at(world, Vector3(0, 0.09, 0))
 		proxy.guide = guide
@@ -91,16 +91,19 @@ func test_what_leads_nowhere_is_said() -> void:
 		[_guide(HapticGuide.FORM_WAY, [Vector3.ZERO, Vector3(NAN, 0, 0)]), "point 1"]
 	]:
 		var guide: HapticGuide = case[0]
-		check(guide.get_problem().contains(case[1]), "'%s' says '%s'" % [case[1], guide.get_problem()])
+		check(
+			"\n".join(guide.get_problems()).contains(case[1]),
+			"'%s' says '%s'" % [case[1], guide.get_problems()]
+		)
 		check_equal(guide.create_line_mesh().get_surface_count(), 0, "lines to look at")
 		proxy.guide = guide
-		check("\n".join(proxy.get_warnings()).contains(case[1]), "%s" % [proxy.get_warnings()])
+		check("\n".join(proxy.get_problems()).contains(case[1]), "%s" % [proxy.get_problems()])
 		world.advance(0.05)
 		check_near(proxy.get_force(), Vector3.ZERO, 1e-9, "force")
 	var long := HapticGuide.new()
 	for i in 17:
 		long.points += PackedVector3Array([Vector3(i, 0, 0)])
-	check(long.get_problem().contains("at most 16"), long.get_problem())
+	check("\n".join(long.get_problems()).contains("at most 16"), str(long.get_problems()))
 
 
 ## The hand's own path leaves the guide's; what is felt leads back. Where the nearest place jumps it takes
@@ -127,10 +130,10 @@ func test_the_scene_with_a_guide_plays() -> void:
 func test_a_guide_along_a_curve_leads_along_it() -> void:
 	var guide := _guide(HapticGuide.FORM_WAY, [])
 	guide.curve = Curve3D.new()
-	check(guide.get_problem().contains("too few points"), guide.get_problem())
+	check("\n".join(guide.get_problems()).contains("too few points"), str(guide.get_problems()))
 	guide.curve.add_point(Vector3(-0.1, 0.1, 0), Vector3.ZERO, Vector3(0.05, 0.05, 0))
 	guide.curve.add_point(Vector3(0.1, 0.1, 0), Vector3(-0.05, 0.05, 0))
-	check_equal(guide.get_problem(), "", "problem")
+	check_equal(Array(guide.get_problems()), [], "problems")
 	var middle := guide.curve.sample(0, 0.5)
 	check_near(guide.get_place(middle + Vector3(0, 0.01, 0)), middle, 1e-3, "place in the middle")
 	check_near(guide.get_place(Vector3(-1, 0.1, 0)), Vector3(-0.1, 0.1, 0), 1e-6, "its end")

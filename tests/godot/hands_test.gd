@@ -119,7 +119,7 @@ func test_a_hand_without_its_node_says_so() -> void:
 	var device := HapticDevice.new()
 	device.driver = HapticDevice.DRIVER_NODE
 	check(device.get_state_text().contains("set 'target' to a Node3D"), device.get_state_text())
-	var warnings := "\n".join(device.get_warnings())
+	var warnings := "\n".join(device.get_problems())
 	check(warnings.contains("set 'target'"), warnings)
 	device.free()
 
@@ -309,7 +309,7 @@ func test_feedback_without_a_proxy_says_so() -> void:
 	expect_error("there is no ProxyPointer in its world")
 	await frames(2)
 	world.advance(0.01)
-	check("\n".join(feedback.get_warnings()).contains("is silent"), str(feedback.get_warnings()))
+	check("\n".join(feedback.get_problems()).contains("is silent"), str(feedback.get_problems()))
 	await _the_mixer_is_done()
 
 

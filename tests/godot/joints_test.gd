@@ -187,7 +187,7 @@ func test_joints_that_join_nothing_are_named() -> void:
 	expect_error("its node_a '../Nobody' is not a body of the scene")
 	world.advance(TICK)
 	check_equal(world.get_problems().size(), 1, "problems")
-	check(" ".join(world.get_warnings()).contains("'Joint' does not join"), "no configuration warning")
+	check(" ".join(world._list_warnings()).contains("'Joint' does not join"), "no configuration warning")
 
 
 func test_joints_of_other_kinds_are_named() -> void:

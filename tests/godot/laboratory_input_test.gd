@@ -145,7 +145,7 @@ func test_a_bundle_that_lacks_a_part_is_not_the_same() -> void:
 
 
 func test_the_launcher_refuses_by_type_unit_and_range() -> void:
-	for option: String in ["scenario", "seconds", "local_port", "delay_ms", "jitter_ms", "loss", "watch"]:
+	for option: String in ["scenario", "seconds", "local_port", "delay", "jitter", "loss", "watch"]:
 		for value: String in NONSENSE:
 			var said := Launch.new().take(PackedStringArray(["--%s=%s" % [option, value]]))
 			check("--%s=%s is refused: it must be a" % [option, value] in said, said)
@@ -155,9 +155,19 @@ func test_the_launcher_refuses_by_type_unit_and_range() -> void:
 		check(Launch.new().take(PackedStringArray([word])) != "", word)
 
 
+func test_a_former_name_of_an_option_works_and_names_the_new_one() -> void:
+	var launch := Launch.new()
+	expect_error("--delay_ms is --delay now. The old name still works")
+	check_equal(launch.take(PackedStringArray(["--scenario=4", "--delay_ms=40"])), "", "with the former name")
+	check_equal(launch.chosen.delay, 40.0, "delay")
+	expect_error("--delay_ms is --delay now")
+	var twice := launch.take(PackedStringArray(["--scenario=4", "--delay_ms=40", "--delay=50"]))
+	check_equal(twice, "--delay is given twice: say it once", "both")
+
+
 func test_the_launcher_refuses_what_the_scenario_would_not_play() -> void:
 	for words: Array in [
-		["--scenario=1", "--delay_ms=40"],
+		["--scenario=1", "--delay=40"],
 		["--loss=0.1"],
 		["--scenario=1", "--correction=CORRECTION_NONE"],
 		["--scenario=3", "--key_file=/key"],
@@ -169,7 +179,7 @@ func test_the_launcher_refuses_what_the_scenario_would_not_play() -> void:
 		check("is refused: scenario" in said, "%s: '%s'" % [words, said])
 		check_equal(launch.chosen, Launch.new().chosen, "what is chosen")
 	for words: Array in [
-		["--scenario=2", "--delay_ms=40", "--side=operator"], ["--scenario=5", "--camera=SOURCE_CAMERA"]
+		["--scenario=2", "--delay=40", "--side=operator"], ["--scenario=5", "--camera=SOURCE_CAMERA"]
 	]:
 		check_equal(Launch.new().take(PackedStringArray(words)), "", "%s" % [words])
 
@@ -214,8 +224,8 @@ func test_two_recorders_do_not_write_over_each_other() -> void:
 		recorders.append(recorder)
 	check(recorders[0].start(), "the first one does not start")
 	check(not recorders[1].start(), "the second one starts")
-	check("another recording" in recorders[1].get_problem(), recorders[1].get_problem())
-	check_equal(recorders[0].get_problem(), "", "problem of the first one")
+	check("another recording" in recorders[1].get_state_text(), recorders[1].get_state_text())
+	check(recorders[0].get_state_text().begins_with("it has no proxy"), recorders[0].get_state_text())
 	recorders[0].stop()
 	check(recorders[1].start(), "it does not start when the first one has stopped")
 	recorders[1].stop()

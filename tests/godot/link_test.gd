@@ -159,7 +159,7 @@ func test_bad_values_are_refused_and_the_old_ones_stay() -> void:
 		check(link.get_indexed(wrong[0]) == before, "%s took %s" % wrong)
 	link.conditions.jitter_shape = MMTNetworkConditions.JITTER_TRACE
 	link.conditions.trace_file = "res://nothing.txt"
-	check(link.get_warnings()[-1].contains("there is no file"), "no warning about the trace")
+	check(link.get_problems()[-1].contains("there is no file"), "no warning about the trace")
 	link.queue_free()
 
 
@@ -202,7 +202,7 @@ func test_several_operators_touch_one_environment() -> void:
 			world.advance(TICK)
 	for link: MMTLink in [_here, at_guest, _there, to_guest]:
 		check_equal(link.get_state(), MMTLink.STATE_CONNECTED, link.get_state_text())
-		check_equal(link.get_warnings().size(), 0, "warnings: %s" % link.get_warnings())
+		check_equal(link.get_problems().size(), 0, "warnings: %s" % link.get_problems())
 	for world: HapticWorld in [_operator, guest]:
 		check_near(_felt(world), Vector3(0, 8, 0), 1e-3, "force at " + world.name)
 	check_near((_far.get_node("Proxy") as ProxyPointer).get_force().y, 10.0, 1e-3, "the first one's hand")
@@ -239,28 +239,28 @@ func test_a_link_says_what_it_lacks() -> void:
 	var lonely := MMTLink.new()
 	add_child(lonely)
 	check(
-		lonely.get_warnings()[0].contains("no HapticWorld above it"),
-		"without a world: %s" % lonely.get_warnings()
+		lonely.get_problems()[0].contains("no HapticWorld above it"),
+		"without a world: %s" % lonely.get_problems()
 	)
 	var world := add_world()
 	var first := _link(world, MMTLink.SIDE_OPERATOR, MMTLink.SCENARIO_MMT)
 	var second := _link(world, MMTLink.SIDE_OPERATOR, MMTLink.SCENARIO_MMT)
-	check(second.get_warnings()[0].contains("another MMTLink"), "two of them: %s" % second.get_warnings())
+	check(second.get_problems()[0].contains("another MMTLink"), "two of them: %s" % second.get_problems())
 	check_equal(second.get_state(), MMTLink.STATE_FAILED, "state of the second")
 	check(second.get_state_text().contains("remove one of the two"), second.get_state_text())
-	check_equal(first.get_warnings().size(), 0, "warnings of the first")
+	check_equal(first.get_problems().size(), 0, "warnings of the first")
 	expect_error("absolute path of a file outside of the project")
 	first.key_file = "res://key"
 	check_equal(first.key_file, "", "a key in the project")
 	first.local_port = 5000
 	first.remote_port = 5000
-	check(first.get_warnings()[0].contains("different ports"), "ports: %s" % first.get_warnings())
+	check(first.get_problems()[0].contains("different ports"), "ports: %s" % first.get_problems())
 	first.partner = NodePath("../../Nothing")
-	check(first.get_warnings()[0].contains("is not an MMTLink"), "partner: %s" % first.get_warnings())
+	check(first.get_problems()[0].contains("is not an MMTLink"), "partner: %s" % first.get_problems())
 	world.position.x = 1.0
-	check_equal(first.get_warnings().size(), 1, "a moved world is none: %s" % first.get_warnings())
+	check_equal(first.get_problems().size(), 1, "a moved world is none: %s" % first.get_problems())
 	world.scale = Vector3.ONE * 2.0
-	check(first.get_warnings()[-1].contains("is scaled"), "scaled world: %s" % first.get_warnings())
+	check(first.get_problems()[-1].contains("is scaled"), "scaled world: %s" % first.get_problems())
 
 
 func test_partners_of_the_same_side_stay_apart() -> void:

@@ -64,7 +64,7 @@ func test_a_proxy_whose_device_is_nowhere() -> void:
 	expect_error("its device '../Nothing' is not a HapticDevice")
 	world.advance(0.1)
 	check(not proxy.is_touching(), "it touches")
-	check(proxy.get_warnings()[0].contains("set 'device' anew"), "no warning")
+	check(proxy.get_problems()[0].contains("set 'device' anew"), "no warning")
 	var device := HapticDevice.new()
 	device.name = "Nothing"
 	device.path = path(Vector3(0, 0.05, 0), Vector3(0, -0.01, 0), 0.1)
@@ -81,7 +81,7 @@ func test_a_device_without_a_path() -> void:
 	device.driver = HapticDevice.DRIVER_PATH
 	expect_error("set 'path' to a HapticPath")
 	world.advance(0.1)
-	check(device.get_warnings()[0].contains("set 'path'"), "no warning")
+	check(device.get_problems()[0].contains("set 'path'"), "no warning")
 	check(not device.is_device_connected(), "it says that it is connected")
 
 
@@ -101,7 +101,7 @@ func test_a_world_in_a_world_stays_inactive_and_its_bodies_belong_to_the_outer_o
 	expect_error("it stands inside another HapticWorld")
 	outer.add_child(inner)
 	check(not inner.is_running() and outer.is_running(), "the wrong one runs")
-	check(inner.get_warnings()[0].contains("inside another one"), "no warning")
+	check(inner.get_problems()[0].contains("inside another one"), "no warning")
 	add_floor(inner, 500.0)
 	var proxy := add_hand(inner, path(Vector3(0, 0.05, 0), Vector3(0, -0.01, 0), 0.1))
 	outer.advance(0.3)

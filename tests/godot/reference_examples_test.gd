@@ -156,7 +156,7 @@ func _shows_haptic_force(scene: Node) -> bool:
 
 
 func _shows_haptic_guide(scene: Node) -> bool:
-	return scene.get_node("World/Pointer").guide.get_problem().is_empty()
+	return scene.get_node("World/Pointer").guide.get_problems().is_empty()
 
 
 func _shows_haptic_material(scene: Node) -> bool:
@@ -183,6 +183,38 @@ func _shows_haptic_replay(scene: Node) -> bool:
 
 func _shows_haptic_soft_body(scene: Node) -> bool:
 	return _added(scene, "World/Ball", "HapticSoftBody").get_element_count() > 100
+
+
+func _shows_haptic_statistics(scene: Node) -> bool:
+	return scene.row.ticks == 300 and scene.load_statistics is HapticStatistics
+
+
+func _shows_haptic_load_statistics(scene: Node) -> bool:
+	return scene.load_statistics.bodies == 2 and scene.load_statistics.awake_bodies == 0
+
+
+func _shows_haptic_timing_statistics(scene: Node) -> bool:
+	return scene.timing is HapticTimingStatistics and scene.timing.measured_ticks == 0
+
+
+func _shows_haptic_sensing_statistics(scene: Node) -> bool:
+	return scene.sensing is HapticSensingStatistics and scene.sensing.frames == 0
+
+
+func _shows_mmt_network_statistics(scene: Node) -> bool:
+	return scene.network is MMTNetworkStatistics and scene.network.packets_sent == 0
+
+
+func _shows_mmt_model_statistics(scene: Node) -> bool:
+	return scene.model is MMTModelStatistics and scene.model.corrections == 0
+
+
+func _shows_mmt_passivity_statistics(scene: Node) -> bool:
+	return scene.passivity is MMTPassivityStatistics and scene.passivity.energy_hand_j == 0.0
+
+
+func _shows_mmt_playout_statistics(scene: Node) -> bool:
+	return scene.playout is MMTPlayoutStatistics and scene.playout.samples_exact == 0
 
 
 func _shows_haptic_world(scene: Node) -> bool:

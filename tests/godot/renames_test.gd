@@ -2,6 +2,12 @@ extends "nodes_case.gd"
 ## Scenes with the former names of CHANGELOG.md load, and each name is warned of once.
 
 const FOLDER := "user://renames_test"
+## What a number of now is multiplied by under its former name.
+const FORMER_UNITS := {
+	"HapticDepthSensor.synthetic_error_percent": 100.0,
+	"HapticDepthSensor.camera_delay": 1000.0,
+	"HapticEffect.budget_ms": 1000.0
+}
 
 
 class Ears:
@@ -21,10 +27,11 @@ class Ears:
 		said.append(rationale if not rationale.is_empty() else code)
 
 
-## Every former name, with the new one.
-func _renames() -> Dictionary[String, String]:
+## Every former name of a class or property, with the new one; `table`: of another kind.
+func _renames(table := "Former name") -> Dictionary[String, String]:
 	var here: String = (get_script() as Script).resource_path.get_base_dir()
 	var text := FileAccess.get_file_as_string(here.path_join("../../CHANGELOG.md"))
+	text = text.get_slice("| %s | Now |" % table, 1).get_slice("\n\n", 0)
 	var found: Dictionary[String, String] = {}
 	for row in RegEx.create_from_string("(?m)^\\| `([\\w.]+)` \\| `([\\w.]+)` \\|$").search_all(text):
 		found[row.get_string(1)] = row.get_string(2)
@@ -86,6 +93,8 @@ func _check_same(found: Object, expected: Object) -> void:
 		var now: Variant = found.get(name)
 		if now is Object:
 			check(now.is_class(expected.get(name).get_class()), "%s.%s is %s" % [kind, name, now])
+		elif _renames().find_key("%s.%s" % [kind, name]) in FORMER_UNITS:
+			check(is_equal_approx(now, expected.get(name)), "%s.%s is %s" % [kind, name, now])
 		else:
 			check_equal(now, expected.get(name), "%s.%s" % [kind, name])
 
@@ -93,7 +102,9 @@ func _check_same(found: Object, expected: Object) -> void:
 ## All that has a former name, under its new one.
 func _new_scene() -> Node3D:
 	var root := Node3D.new()
-	for kind: String in ["HapticDepthSensor", "HapticVibrationSound", "HapticMesh", "HapticWorld", "MMTLink"]:
+	for kind: String in [
+		"HapticDepthSensor", "HapticVibrationSound", "HapticMesh", "HapticWorld", "HapticEffect", "MMTLink"
+	]:
 		var node: Node = _changed(ClassDB.instantiate(kind))
 		node.name = kind
 		root.add_child(node)
@@ -122,8 +133,7 @@ func _with_former_names(text: String) -> String:
 			var line := RegEx.create_from_string("(?m)^%s = (.*)$" % now.get_slice(".", 1))
 			check_equal(line.search_all(text).size(), 1, "lines of %s" % now)
 			var value := line.search(text).get_string(1)
-			if old.ends_with("_percent"):
-				value = var_to_str(100.0 * float(value))
+			value = var_to_str(FORMER_UNITS[old] * float(value)) if old in FORMER_UNITS else value
 			text = line.sub(text, "%s = %s" % [old.get_slice(".", 1), value])
 	return text
 
@@ -171,6 +181,44 @@ func test_every_former_name_loads_and_warns_once() -> void:
 			now = now.replace("MMTTuning.", "tuning.").replace("MMTNetworkConditions.", "conditions.")
 		var is_said := func(text: String) -> bool: return text.begins_with("%s is %s now." % [old, now])
 		check(Array(ears.said).any(is_said), "of %s there is no message: %s" % [old, ears.said])
+
+
+## Methods and constants, and properties that are read only.
+func test_every_former_method_and_constant_works_and_warns_once() -> void:
+	expect_error(" now. The old name still works")
+	var ears := Ears.new()
+	OS.add_logger(ears)
+	var former := _renames("Former method, constant or read-only property")
+	var warned := PackedStringArray()
+	for _round in 2:
+		for old in former:
+			var kind := old.get_slice(".", 0)
+			var name := old.get_slice(".", 1)
+			var now := former[old].get_slice(".", 1)
+			check_equal(former[old].get_slice(".", 0), kind, "class of " + former[old])
+			if ClassDB.class_has_integer_constant(kind, now):
+				var value := ClassDB.class_get_integer_constant(kind, now)
+				check_equal(ClassDB.class_get_integer_constant(kind, name), value, old)
+				continue
+			var object: Object = ClassDB.instantiate(kind)
+			var is_method := object.has_method(name)
+			check(is_method == object.has_method(now), now + " is missing")
+			var before: Variant = object.call(name) if is_method else object.get(name)
+			var after: Variant = object.call(now) if is_method else object.get(now)
+			if before is String:
+				# What is wrong with a node beside it is in the list as well.
+				var is_same: bool = before.is_empty() or "\n".join(after).contains(before)
+				check(is_same, "%s is '%s', and now '%s'" % [old, before, after])
+			else:
+				check_equal(before, after, old)
+			warned.append("%s is %s now." % [old, former[old]])
+			if object is Node:
+				object.free()
+	OS.remove_logger(ears)
+	for said in warned:
+		var heard := Array(ears.said).filter(func(text: String) -> bool: return text.begins_with(said))
+		check_equal(heard.size(), 1, "messages '%s'" % said)
+	check(former.size() > 20 and warned.size() > 30, "former names: %s" % [former.keys()])
 
 
 func test_a_former_class_has_only_a_name() -> void:

@@ -135,7 +135,7 @@ func test_a_replay_feels_what_a_script_has_said_without_it() -> void:
 	var proxy := add_hand(world, path(Vector3(-0.05, 0.03, 0), Vector3(0.05, -0.005, 0)))
 	_record(world, "effect")
 	var effect := Spring.new()
-	effect.budget_ms = 1000.0
+	effect.time_budget = 1.0
 	proxy.add_child(effect)
 	for _i in 100:
 		world.advance(0.01)

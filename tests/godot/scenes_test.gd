@@ -146,7 +146,7 @@ func test_the_recorder_says_what_it_lacks() -> void:
 	recorder.proxy = NodePath("../Nothing")
 	recorder.csv_path = FOLDER.path_join("nothing.csv")
 	world.add_child(recorder)
-	check(recorder.get_warnings()[0].contains("set 'proxy' anew"), "no warning")
+	check(recorder.get_problems()[0].contains("set 'proxy' anew"), "no warning")
 	expect_error("is not a ProxyPointer of the scene")
 	world.advance(0.01)
 	check_equal(recorder.get_rows(), 0, "rows")
@@ -158,9 +158,9 @@ func test_a_recorder_that_a_script_starts_needs_no_path_before() -> void:
 	var recorder := HapticRecorder.new()
 	recorder.proxy = NodePath("../Proxy")
 	world.add_child(recorder)
-	check(recorder.get_warnings()[0].contains("writes nothing"), "no warning with autostart")
+	check(recorder.get_problems()[0].contains("writes nothing"), "no warning with autostart")
 	recorder.autostart = false
-	check_equal(Array(recorder.get_warnings()), [], "warnings without autostart")
+	check_equal(Array(recorder.get_problems()), [], "warnings without autostart")
 	expect_error("it has no file to write: set 'csv_path'")
 	check(not recorder.start(), "it started without a file")
 
@@ -189,14 +189,14 @@ func test_the_path_of_the_thesis_is_a_circle_of_ten_seconds_through_the_ground()
 func test_a_path_along_a_curve_goes_at_an_even_speed() -> void:
 	var way := HapticPath.new()
 	way.form = HapticPath.FORM_CURVE
-	check(way.get_problem().contains("set 'curve'"), way.get_problem())
+	check("\n".join(way.get_problems()).contains("set 'curve'"), str(way.get_problems()))
 	check_equal(way.get_duration(), 0.0, "duration without a curve")
 	way.curve = Curve3D.new()
 	way.curve.add_point(Vector3.ZERO, Vector3.ZERO, Vector3(0.1, 0, 0))
 	way.curve.add_point(Vector3(0.2, 0.1, 0), Vector3(-0.1, 0, 0))
 	way.curve.bake_interval = 0.002
 	way.curve_speed = 0.05
-	check_equal(way.get_problem(), "", "problem")
+	check_equal(Array(way.get_problems()), [], "problems")
 	var seconds := way.get_duration()
 	check_near(seconds * 0.05, way.curve.get_baked_length(), 1e-3, "length")
 	for i in 20:

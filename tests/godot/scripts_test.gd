@@ -276,7 +276,7 @@ func test_a_device_of_another_world() -> void:
 	expect_error("belongs to another HapticWorld")
 	here.advance(0.1)
 	check(proxy.get_state_text().contains("belongs to another HapticWorld"), proxy.get_state_text())
-	check("belongs to another HapticWorld" in "\n".join(proxy.get_warnings()), "no warning")
+	check("belongs to another HapticWorld" in "\n".join(proxy.get_problems()), "no warning")
 
 
 func test_a_preset_keeps_what_was_there_before() -> void:

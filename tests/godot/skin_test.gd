@@ -73,7 +73,7 @@ func test_a_mesh_at_rest_is_touched_where_it_lies() -> void:
 	var proxy := _hand(world, 0.1)
 	world.advance(0.6)
 	check_near(proxy.get_proxy_position(), Vector3(0.1, 0.01, 0), 1e-3, "proxy")
-	check_equal(plate.touched.get_warnings().size(), 0, "warnings")
+	check_equal(plate.touched.get_problems().size(), 0, "warnings")
 
 
 func test_a_skinned_mesh_is_touched_where_its_bones_have_it() -> void:
@@ -146,5 +146,5 @@ func test_a_path_that_leads_nowhere_is_said() -> void:
 	var plate := _plate(world, _plate_mesh())
 	plate.touched.mesh_instance = NodePath("../Nobody")
 	world.advance(0.1)
-	var said := str(plate.touched.get_warnings())
+	var said := str(plate.touched.get_problems())
 	check("no mesh to follow" in said, said)

@@ -40,7 +40,7 @@ func test_a_block_gives_by_as_much_as_it_is_pressed_and_comes_back() -> void:
 	check(proxy.get_proxy_position().y < 0.045, "it does not give: %s" % proxy.get_proxy_position())
 	check(proxy.get_proxy_position().y > 0.031, "the hand is in it")
 	check(proxy.get_force().y > 0.2, "nothing is felt: %s" % proxy.get_force())
-	check_equal(soft.get_problem(), "", "problem")
+	check_equal(Array(soft.get_problems()), [], "problems")
 	check_equal(soft.get_element_count(), 750, "elements")
 	check_equal(world.get_problems().size(), 0, "problems")
 	var away: HapticPath = path(Vector3(0, 0.03, 0), Vector3(0, 0.2, 0))
@@ -126,7 +126,7 @@ func test_tetrahedra_can_be_given() -> void:
 	world.add_child(_body_of(soft))
 	var proxy := add_hand(world, path(Vector3(0, 0.2, 0), Vector3(0, 0.09, 0)))
 	world.advance(1.2)
-	check_equal(soft.get_problem(), "", "problem")
+	check_equal(Array(soft.get_problems()), [], "problems")
 	check(proxy.is_touching(), "nothing is touched")
 
 
@@ -161,8 +161,11 @@ func test_what_cannot_give_says_why_and_the_rest_goes_on() -> void:
 	var proxy := add_hand(world, path(Vector3(0, 0.1, 0), Vector3(0, 0.03, 0)))
 	world.advance(1.5)
 	for soft: HapticSoftBody in words:
-		check(words[soft] in soft.get_problem(), "no '%s' in: %s" % [words[soft], soft.get_problem()])
-		check(not soft.get_warnings().is_empty(), "no warning of %s" % words[soft])
+		check(
+			words[soft] in "\n".join(soft.get_problems()),
+			"no '%s' in: %s" % [words[soft], soft.get_problems()]
+		)
+		check(not soft.get_problems().is_empty(), "no warning of %s" % words[soft])
 	check(proxy.is_touching(), "the sound one is not touched")
 
 

@@ -3,6 +3,8 @@ extends "nodes_case.gd"
 
 ## With a state that the code knows, beside its text.
 const WITH_STATE := [
+	"HapticWorld",
+	"HapticRecorder",
 	"HapticDevice",
 	"ProxyPointer",
 	"HapticTool",
@@ -11,6 +13,8 @@ const WITH_STATE := [
 	"MMTLink",
 	"HapticDepthSensor"
 ]
+## Parts of a body: they neither start nor stop, and what keeps them from being touched is a problem.
+const WITHOUT_STATE := ["HapticMesh", "HapticSoftBody"]
 
 
 func _classes_of(base: String) -> PackedStringArray:
@@ -33,6 +37,11 @@ func test_every_node_lists_its_problems_and_states() -> void:
 	check(nodes.size() > 10, "there are only %s" % [nodes])
 	for name in nodes:
 		check(ClassDB.class_has_method(name, "get_problems", true), name + " has no get_problems()")
+		check(
+			(name in WITH_STATE) != (name in WITHOUT_STATE), name + " is in none of the two lists, or in both"
+		)
+	for name in WITHOUT_STATE:
+		check(not ClassDB.class_has_method(name, "get_state", true), name + " has a state")
 	for name: String in WITH_STATE:
 		check(ClassDB.class_has_method(name, "get_state", true), name + " has no get_state()")
 		check(ClassDB.class_has_method(name, "get_state_text", true), name + " has no get_state_text()")
@@ -69,6 +78,80 @@ func test_a_hand_tells_its_states() -> void:
 	check(
 		proxy.get_problems()[0].contains("'collision_mask' is empty"), "problems: %s" % proxy.get_problems()
 	)
+
+
+func test_a_world_tells_its_states() -> void:
+	var world := HapticWorld.new()
+	world.clock = HapticWorld.CLOCK_STEPPED
+	var told := []
+	world.state_changed.connect(func(state: int, text: String) -> void: told.append([state, text]))
+	check_equal(world.get_state(), HapticWorld.STATE_OFF, world.get_state_text())
+	add_floor(world)
+	add_child(world)
+	world.advance(TICK)
+	check_equal(world.get_state(), HapticWorld.STATE_WORKING, world.get_state_text())
+	check_equal(told, [[HapticWorld.STATE_WORKING, "working"]], "told")
+	var inner := HapticWorld.new()
+	expect_error("it stands inside another HapticWorld")
+	world.add_child(inner)
+	check_equal(inner.get_state(), HapticWorld.STATE_FAILED, inner.get_state_text())
+	check(inner.get_problems()[0].contains("inside another one"), "problems: %s" % inner.get_problems())
+	inner.free()
+	remove_child(world)
+	check_equal(world.get_state(), HapticWorld.STATE_OFF, world.get_state_text())
+	await frames(1)
+	check_equal(told[-1], [HapticWorld.STATE_OFF, "off"], "told at last")
+	world.free()
+
+
+func test_a_world_in_real_time_waits_while_the_tree_is_paused() -> void:
+	var world := HapticWorld.new()
+	world.process_mode = Node.PROCESS_MODE_PAUSABLE
+	add_child(world)
+	var works := func() -> bool: return world.get_state() == HapticWorld.STATE_WORKING
+	check(await until(works, 10.0), world.get_state_text())
+	get_tree().paused = true
+	await get_tree().process_frame
+	check_equal(world.get_state(), HapticWorld.STATE_WAITING, "state")
+	check_equal(world.get_state_text(), "paused", "text")
+	get_tree().paused = false
+	check(await until(works, 10.0), world.get_state_text())
+	world.free()
+
+
+func test_a_recorder_tells_its_states() -> void:
+	var world := add_world()
+	add_floor(world)
+	var proxy := add_hand(world, path(Vector3(0, 0.1, 0), Vector3(0, 0.05, 0), 0.1))
+	var recorder := HapticRecorder.new()
+	recorder.autostart = false
+	recorder.proxy_node = null
+	world.add_child(recorder)
+	var told := []
+	recorder.state_changed.connect(func(state: int, _text: String) -> void: told.append(state))
+	check_equal(recorder.get_state(), HapticRecorder.STATE_OFF, recorder.get_state_text())
+	expect_error("it has no file to write")
+	recorder.start()
+	check_equal(recorder.get_state(), HapticRecorder.STATE_FAILED, recorder.get_state_text())
+	check(recorder.get_problems()[-1].contains("no file to write"), "problems: %s" % recorder.get_problems())
+	recorder.csv_path = "user://states_test.csv"
+	recorder.proxy_node = proxy
+	check(recorder.start(), "it does not start")
+	check_equal(recorder.get_state(), HapticRecorder.STATE_WAITING, recorder.get_state_text())
+	world.advance(0.02)
+	world.advance(0.02)
+	check_equal(recorder.get_state(), HapticRecorder.STATE_WORKING, recorder.get_state_text())
+	recorder.stop()
+	await frames(1)
+	check_equal(recorder.get_state(), HapticRecorder.STATE_OFF, recorder.get_state_text())
+	check_equal(Array(recorder.get_problems()), [], "problems")
+	var expected := [
+		HapticRecorder.STATE_FAILED,
+		HapticRecorder.STATE_WAITING,
+		HapticRecorder.STATE_WORKING,
+		HapticRecorder.STATE_OFF
+	]
+	check_equal(told, expected, "told")
 
 
 func test_queries_answer_in_the_words_of_godot() -> void:

@@ -60,7 +60,7 @@ func test_each_surface_feels_as_its_own_material() -> void:
 	world.advance(0.5)
 	check_near(left.get_force().y, 5.0, 1e-2, "the body's own material")
 	check_near(right.get_force().y, 9.0, 1e-2, "that of the second surface")
-	check_equal(touched.get_warnings().size(), 0, "warnings")
+	check_equal(touched.get_problems().size(), 0, "warnings")
 
 
 func test_a_surface_takes_over_what_changes_while_running() -> void:
@@ -132,4 +132,4 @@ func test_what_cannot_be_felt_is_said() -> void:
 
 
 func _says(node: HapticMesh, text: String) -> bool:
-	return Array(node.get_warnings()).any(func(warning: String) -> bool: return text in warning)
+	return Array(node.get_problems()).any(func(warning: String) -> bool: return text in warning)

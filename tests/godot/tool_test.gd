@@ -83,11 +83,11 @@ func test_what_is_no_tool_is_said() -> void:
 	tool.mesh = QuadMesh.new()
 	world.advance(0.01)
 	check(tool.get_state_text().contains("close it"), tool.get_state_text())
-	check_equal(tool.get_warnings().size(), 1, "warnings")
+	check_equal(tool.get_problems().size(), 1, "warnings")
 	tool.mesh = bar()
 	world.advance(0.01)
 	check_equal(tool.get_state_text(), "free", "state")
-	check_equal(tool.get_warnings().size(), 0, "warnings")
+	check_equal(tool.get_problems().size(), 0, "warnings")
 
 
 ## It pressed the floor, and its force, its contacts and its place stayed.

@@ -48,6 +48,23 @@ def test_statistics_are_keys_in_code_and_lines_in_the_help():
         assert f"[code]{key}[/code]: " in text
 
 
+def test_statistics_of_a_group_are_properties_of_its_class():
+    owner = next(table for table in TABLES if table.name == "HapticWorld")
+    group = next(table for table in TABLES if table.name == "HapticTimingStatistics")
+    names = [one.get("key") for one in owner.root.iterfind(".//group[@class='HapticTimingStatistics']/statistic")]
+    assert [member.get("name") for member in group.all("member")] == names and len(names) > 20
+    member = ElementTree.fromstring(group.help()).find(".//member[@name='baseline_mean_period_us']")
+    assert "[member HapticWorld.measure_baseline]" in member.text and "[b]Unit:[/b] μs." in member.text
+    assert f'return HapticStatistics::of<{group.name}>(figures("{group.name}"));' in owner.source()
+
+
+def test_each_group_is_returned_by_a_method():
+    for table in TABLES:
+        if owner := table.root.get("statistics_of"):
+            returned = [one for one in next(one for one in TABLES if one.name == owner).all("method") if one.find("return").get("type") == table.name]
+            assert len(returned) == 1, table.name
+
+
 def test_a_range_is_said_with_its_unit():
     table = next(table for table in TABLES if table.name == "MMTNetworkConditions")
     assert "[b]Range:[/b] 0 to 10 s." in table.help().decode()
@@ -67,9 +84,11 @@ def test_former_names_are_those_of_the_changelog():
     listed = re.findall(r"^\| `([\w.]+)` \| `([\w.]+)` \|$", text, re.MULTILINE)
     renamed = [(table.old_name(), table.name) for table in TABLES if table.old_name()]
     for table in TABLES:
-        for member in table.all("member"):
-            for old in member.get("was", "").split():
-                renamed.append((old if "." in old else f"{table.name}.{old}", f"{table.name}.{member.get('name')}"))
+        for one in (*table.all("member"), *table.all("method"), *table.all("constant")):
+            for old in one.get("was", "").split():
+                renamed.append((old if "." in old else f"{table.name}.{old}", f"{table.name}.{one.get('name')}"))
+            if one.get("now") and not one.get("hidden"):
+                renamed.append((f"{table.name}.{one.get('name')}", f"{table.name}.{one.get('now')}"))
     assert len(listed) == len({old for old, _ in listed}) and sorted(listed) == sorted(renamed)
 
 
@@ -80,6 +99,20 @@ def test_a_former_name_is_deprecated_in_the_help():
     member = ElementTree.fromstring(table.help()).find(".//member[@name='stealth_let_go']")
     assert member.get("deprecated") == "Use [member stealth_release_time] instead."
     assert (member.get("setter"), member.get("getter"), member.get("type")) == ("set_stealth_let_go", "get_stealth_let_go", "float")
+
+
+def test_a_former_method_is_deprecated_in_the_help():
+    help_ = {name: ElementTree.fromstring(next(table for table in TABLES if table.name == name).help()) for name in ("ProxyPointer", "HapticPath")}
+    former = help_["ProxyPointer"].find(".//method[@name='is_squeezed']")
+    assert former.get("deprecated") == "Use [method is_pinched] instead." and former.find("return").get("type") == "bool"
+    assert help_["HapticPath"].find(".//method[@name='get_problem']").get("deprecated") == "Use [method get_problems] instead."
+    assert help_["ProxyPointer"].find(".//constant[@name='STATUS_SQUEEZED']").get("deprecated") == "Use [constant STATUS_PINCHED] instead."
+
+
+def test_a_path_has_a_node_beside_it():
+    table = next(table for table in TABLES if table.name == "ProxyPointer")
+    node = ElementTree.fromstring(table.help()).find(".//member[@name='device_node']")
+    assert (node.get("type"), node.get("setter"), node.get("getter")) == ("HapticDevice", "set_device_node", "get_device_node")
 
 
 def test_a_default_has_one_type_on_every_system():

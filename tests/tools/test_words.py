@@ -17,11 +17,8 @@ REPLACED = words.replaced_words((CLONE / "docs/glossary.md").read_text())
 # The first commit whose successors keep to the form of a subject.
 COMMITS_SINCE = "adc6141"
 
-# Public names that hold a replaced word: scenes and scripts have them, and a new name has to load the old one.
-KEPT_NAMES = {
-    "HapticTool.STATUS_SQUEEZED", "MMTLink.refused_strangers", "ProxyPointer.STATUS_SQUEEZED", "ProxyPointer.is_being_let_out",
-    "ProxyPointer.is_squeezed",
-}  # fmt: skip
+# Public names that hold a replaced word: a published key, which experiments and their tables have.
+KEPT_NAMES = {"MMTLink.refused_strangers"}
 
 
 def text_of(path: Path) -> words.Text:

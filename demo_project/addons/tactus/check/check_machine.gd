@@ -63,9 +63,9 @@ func version() -> String:
 
 
 func _of_the_loop() -> PackedStringArray:
-	var figures := _world.get_statistics()
-	if figures.get("measured_ticks", 0) == 0:
-		return ["Loop: no tick was made. %s" % "; ".join(_world.get_warnings())]
+	var figures := _world.get_timing_statistics()
+	if figures.measured_ticks == 0:
+		return ["Loop: no tick was made. %s" % "; ".join(_world.get_problems())]
 	var rate: float = 1e6 / figures.mean_period_us
 	var lines := PackedStringArray()
 	lines.append("Loop: %.1f ticks a second of %d wanted" % [rate, _world.tick_rate])

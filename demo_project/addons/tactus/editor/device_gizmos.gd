@@ -17,7 +17,7 @@ func lines(node: Node3D) -> PackedVector3Array:
 	var drawn := PackedVector3Array()
 	if half > 0.0:
 		drawn.append_array(box_lines(AABB(-half * Vector3.ONE, 2.0 * half * Vector3.ONE)))
-	if device.path != null and device.path.get_problem().is_empty():
+	if device.path != null and device.path.get_problems().is_empty():
 		drawn.append_array(polyline(_way(device.path)))
 	return drawn
 

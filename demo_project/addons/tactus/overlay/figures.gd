@@ -103,7 +103,7 @@ func _of_pointer(pointer: ProxyPointer) -> Dictionary:
 func _of_sensor(sensor: HapticDepthSensor) -> Dictionary:
 	return {
 		"text": sensor.get_state_text(),
-		"frame_ms": sensor.frame_ms,
+		"frame_ms": 1e3 * sensor.frame_time,
 		"confidence": sensor.lowest_confidence,
 	}
 
