@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <godot_cpp/classes/joint3d.hpp>
 #include <godot_cpp/classes/physics_body3d.hpp>
+#include <godot_cpp/classes/physics_server3d.hpp>
 #include <godot_cpp/classes/rigid_body3d.hpp>
 #include <godot_cpp/variant/array.hpp>
 #include <span>
+#include <string_view>
 
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_world.hpp"
@@ -180,6 +182,16 @@ void add_signals(const Node& node, std::vector<std::string>& found) {
     }
 }
 
+// Godot itself puts a body to sleep that it does not move: one that is frozen, or that the world holds.
+bool is_used(const Node& node, const PassedProperty& property) {
+    const auto* const body = Object::cast_to<RigidBody3D>(&node);
+    const bool is_godots =
+        std::string_view(property.property) == "sleeping" && body != nullptr &&
+        PhysicsServer3D::get_singleton()->body_get_mode(body->get_rid()) < PhysicsServer3D::BODY_MODE_RIGID;
+    return !is_godots && node.is_class(property.kind) &&
+           number_of(node.get(property.property)) != property.unused;
+}
+
 bool leaves_to_godot(const Node& node) {
     const HapticWorld* const world = HapticWorld::above(&node);
     return world != nullptr && world->leaves_bodies_to_godot();
@@ -202,7 +214,7 @@ std::vector<std::string> passed_over(const Node& node) {
         return found;
     }
     for (const PassedProperty& one : passed_properties) {
-        if (node.is_class(one.kind) && number_of(node.get(one.property)) != one.unused) {
+        if (is_used(node, one)) {
             found.emplace_back(one.why);
         }
     }
