@@ -46,6 +46,18 @@ void read_surfaces(const HapticMesh& mesh, BodyValues& values) {
     }
 }
 
+// As Godot's own physics has it, whoever has told it: RigidBody3D, or a script past it.
+double told(const RID& body, PhysicsServer3D::BodyParameter what) {
+    return static_cast<double>(PhysicsServer3D::get_singleton()->body_get_param(body, what));
+}
+
+// PhysicsMaterial tells rough and absorbent by the sign.
+SurfaceMaterial told_surface(const RID& body) {
+    const double friction = told(body, PhysicsServer3D::BODY_PARAM_FRICTION);
+    const double bounce = told(body, PhysicsServer3D::BODY_PARAM_BOUNCE);
+    return {std::abs(friction), std::clamp(std::abs(bounce), 0.0, 1.0), friction < 0.0, bounce < 0.0};
+}
+
 double damping_of(RigidBody3D::DampMode mode, double own, double project) {
     return std::max(0.0, mode == RigidBody3D::DAMP_MODE_REPLACE ? own : own + project);
 }
@@ -128,7 +140,8 @@ BodyMakings GodotBody::makings(const Mat3& scaling) const {
         makings.locks |= rigid_->get_axis_lock(axes[i]) ? 1u << i : 0u;
     }
     makings.locks |= rigid_->is_lock_rotation_enabled() ? all_turns : 0u;
-    makings.mass = rigid_->get_mass();
+    makings.mass =
+        scene_.engine_moves ? told(node_.get_rid(), PhysicsServer3D::BODY_PARAM_MASS) : rigid_->get_mass();
     if (mesh != nullptr && mesh->is_giving_mass()) {
         makings.mass = mesh->library_mass(scaling);
         makings.solid_of_mesh = true;
@@ -168,7 +181,9 @@ BodyValues GodotBody::values(const BodyDefaults& defaults) {
     if (mesh != nullptr) {
         read_surfaces(*mesh, values);
     }
-    if (material.is_valid()) {
+    if (scene_.engine_moves) {
+        values.surface = told_surface(node_.get_rid());
+    } else if (material.is_valid()) {
         values.surface = {std::max(0.0, static_cast<double>(material->get_friction())),
                           std::clamp(static_cast<double>(material->get_bounce()), 0.0, 1.0),
                           material->is_rough(), material->is_absorbent()};

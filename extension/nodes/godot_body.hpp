@@ -18,6 +18,7 @@ struct GodotScene {
     const godot::Node3D& world;  // that they stand below
     Complaints& complaints;
     bool is_at_origin = false;  // the world, as of this frame: a place in it is a place below it
+    bool engine_moves = false;  // Godot's own physics moves its bodies
 };
 
 class GodotBody final : public SceneBody, private BodyWatch::Listener {

@@ -64,6 +64,7 @@ void SceneBodies::find(Session& session) {
 }
 
 void SceneBodies::synchronise(MirrorContext context) {
+    scene_.engine_moves = context.engine_moves;
     for (const std::uint64_t id : std::exchange(others_, {})) {
         auto* other = node_of_id<Node>(id);
         if (other != nullptr && scene_.world.is_ancestor_of(other)) {

@@ -316,7 +316,7 @@ void WorldRun::exchange(double seconds) {
     for (const ToolState& tool : std::span(snapshot.tools).first(snapshot.tool_count)) {
         hand_places_.push_back(tool.pose.position);
     }
-    bodies_.mirrors().exchange({session(), hand_places_, seconds});
+    bodies_.mirrors().exchange({session(), hand_places_, seconds, world_.tick_seconds()});
 }
 
 // A script that is called as a body moves may end all this.

@@ -304,7 +304,7 @@ void BodyMirror::exchange_led(const PhysicsFrame& frame) {
         return;  // it is on its way to the loop
     }
     const BodyMotion truth = body_->true_motion();
-    const LedMotion::Frame step = led_.frame(truth, *model, frame.seconds);
+    const LedMotion::Frame step = led_.frame(truth, *model, frame.seconds, frame.tick);
     if (step.corrects) {
         frame.session.correct_body(handle(), step.correction);
     }

@@ -32,6 +32,7 @@ struct PhysicsFrame {
     Session& session;
     std::span<const Vec3> hands;  // where they are (unit: meters)
     double seconds = 0.0;         // of a frame, > 0
+    double tick = 0.0;            // seconds of one of the session's ticks, > 0
 };
 
 class BodyMirror {

@@ -23,6 +23,19 @@ Vec3 agreed(const Vec3& a, const Vec3& b, double least) {
     return both;
 }
 
+// Where the model is that has come as far as the engine's body. `lead`: see led_motion.hpp (unit: seconds).
+BodyMotion without_lead(const BodyMotion& body, double lead) {
+    return {shifted(body.pose, -lead * body.linear_velocity, turn_by(-lead * body.angular_velocity, 1.0)),
+            body.linear_velocity, body.angular_velocity};
+}
+
+void correct(BodyCorrection& correction, const BodyMotion& truth, const BodyMotion& model) {
+    correction.by = truth.pose.position - model.pose.position;
+    correction.turn = turn_vector(truth.pose.rotation * glm::conjugate(model.pose.rotation));
+    correction.linear = truth.linear_velocity - model.linear_velocity;
+    correction.angular = truth.angular_velocity - model.angular_velocity;
+}
+
 }  // namespace
 
 BodyMotion LedMotion::expected() const {
@@ -32,43 +45,43 @@ BodyMotion LedMotion::expected() const {
             before_.motion.angular_velocity + sent_.angular - in_it.angular};
 }
 
-LedMotion::Frame LedMotion::frame(const BodyMotion& truth, const LedState& model, double seconds) {
-    Frame frame;
-    frame.impulse = model.impulse - std::exchange(given_, model.impulse);
-    frame.turn = model.turn - std::exchange(given_turn_, model.turn);
-    if (!std::exchange(is_known_, true)) {
-        before_ = model;
-        return frame;
-    }
-    const BodyMotion model_then = expected();
-    BodyCorrection& correction = frame.correction;
-    correction.acceleration = pull_;
-    correction.spin_up = spin_up_;
-    if (differs(truth, model_then, MotionThreshold{})) {
-        correction.by = truth.pose.position - model_then.pose.position;
-        correction.turn = turn_vector(truth.pose.rotation * glm::conjugate(model_then.pose.rotation));
-        correction.linear = truth.linear_velocity - model_then.linear_velocity;
-        correction.angular = truth.angular_velocity - model_then.angular_velocity;
-    }
-    const bool was_put_there =
-        glm::length(correction.by) > farthest_way + seconds * glm::length(truth.linear_velocity) ||
-        glm::length(correction.turn) > farthest_turn;
-    correction.seconds = was_put_there ? 0.0 : seconds;
+void LedMotion::note_unknown(const BodyCorrection& correction, double seconds) {
     const Vec3 unknown = pull_before_ + correction.linear / seconds;
     const Vec3 unknown_spin = spin_up_before_ + correction.angular / seconds;
     pull_before_ = std::exchange(pull_, agreed(unknown, std::exchange(unknown_, unknown), least_pull));
     spin_up_before_ = std::exchange(
         spin_up_, agreed(unknown_spin, std::exchange(unknown_spin_, unknown_spin), least_spin_up));
-    frame.corrects = pull_ != correction.acceleration || spin_up_ != correction.spin_up ||
-                     glm::length(correction.by) + glm::length(correction.turn) +
-                             glm::length(correction.linear) + glm::length(correction.angular) >
-                         0.0;
-    correction.acceleration = pull_;
-    correction.spin_up = spin_up_;
-    sent_.by += correction.by;
-    sent_.turn += correction.turn;
-    sent_.linear += correction.linear;
-    sent_.angular += correction.angular;
+}
+
+LedMotion::Frame LedMotion::frame(const BodyMotion& engines, const LedState& model, double seconds,
+                                  double tick) {
+    const BodyMotion truth = without_lead(engines, 0.5 * std::max(0.0, seconds - tick));
+    Frame frame;
+    frame.impulse = model.impulse - std::exchange(given_, model.impulse);
+    frame.turn = model.turn - std::exchange(given_turn_, model.turn);
+    BodyCorrection& correction = frame.correction;
+    if (std::exchange(is_known_, true)) {
+        const BodyMotion model_then = expected();
+        if (differs(truth, model_then, MotionThreshold{})) {
+            correct(correction, truth, model_then);
+        }
+        const bool was_put_there =
+            glm::length(correction.by) > farthest_way + seconds * glm::length(truth.linear_velocity) ||
+            glm::length(correction.turn) > farthest_turn;
+        correction.seconds = was_put_there ? 0.0 : seconds;
+        const Vec3 pull = pull_, spin_up = spin_up_;
+        note_unknown(correction, seconds);
+        correction.acceleration = pull_;
+        correction.spin_up = spin_up_;
+        frame.corrects = pull_ != pull || spin_up_ != spin_up ||
+                         glm::length(correction.by) + glm::length(correction.turn) +
+                                 glm::length(correction.linear) + glm::length(correction.angular) >
+                             0.0;
+        sent_.by += correction.by;
+        sent_.turn += correction.turn;
+        sent_.linear += correction.linear;
+        sent_.angular += correction.angular;
+    }
     before_ = model;
     return frame;
 }

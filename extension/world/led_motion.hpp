@@ -3,11 +3,14 @@
 // other.
 //
 // What hands have given the model until a frame goes to the engine's body in that frame, once. So the state S
-// that the engine has in a frame contains what hands did until the frame before: the engine is the same body,
-// one frame later. S is compared with the model M as it was one frame ago, and with all that it has been
-// corrected by since:
+// that the engine has in a frame contains what hands did until the frame before. S is compared with the model
+// M as it was one frame ago, and with all that it has been corrected by since:
 //
 //     e = S[n] - (M[n-1] + corrections that were not in M[n-1] yet)
+//
+// An engine changes the velocity first and then goes with the new one for the whole frame of T seconds, where
+// the model, in ticks of t, gains it little by little. So the engine's body is ahead of the model's by
+// (T - t) / 2 times its velocity, which is no error of the model: that much of the place counts as its own.
 //
 // A right model has e = 0, however hard a hand presses and whatever rubs against the body. The model is put
 // right by e. The part of e in the velocity divided by the frame is the acceleration that the model did not
@@ -30,9 +33,9 @@ public:
         bool corrects = false;  // false: the model is right
     };
 
-    // `truth`: of the engine, in this frame, before it has the impulse. `model`: as it is now. `seconds`: of
-    // a frame, > 0.
-    Frame frame(const BodyMotion& truth, const LedState& model, double seconds);
+    // `engines`: the engine's body in this frame, before it has the impulse. `model`: as it is now.
+    // `seconds`: of a frame, `tick`: of one of the model's ticks, > 0.
+    Frame frame(const BodyMotion& engines, const LedState& model, double seconds, double tick);
 
     // Farther off than this within a frame, a body has been put there and has not gone (units: meters,
     // radians).
@@ -41,6 +44,7 @@ public:
 
 private:
     BodyMotion expected() const;
+    void note_unknown(const BodyCorrection& correction, double seconds);
 
     bool is_known_ = false;
     LedState before_;       // one frame ago

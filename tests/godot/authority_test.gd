@@ -131,7 +131,7 @@ func test_a_game_goes_on_as_without() -> void:
 
 
 ## For four seconds; forces of each tick of 4 ms or less, which are as many at any rate.
-func _push_box(world: HapticWorld, frames_a_second: int) -> Dictionary:
+func _push_box(world: HapticWorld, frames_a_second: int, told_mass := 0.0) -> Dictionary:
 	var slippery := material(500.0)
 	slippery.friction = 0.4
 	slippery.damping = 10.0
@@ -141,6 +141,9 @@ func _push_box(world: HapticWorld, frames_a_second: int) -> Dictionary:
 	block.physics_material_override = slippery
 	block.can_sleep = false
 	world.add_child(block)
+	if told_mass > 0.0:
+		block.mass = 4.0
+		PhysicsServer3D.body_set_param(block.get_rid(), PhysicsServer3D.BODY_PARAM_MASS, told_mass)
 	var proxy := add_hand(world, path(Vector3(-0.1, 0.05, 0), Vector3(0.1, 0.05, 0), 2.0))
 	var device: HapticDevice = world.get_node("Device")
 	device.path.points_times = PackedFloat64Array([1.0, 3.0])
@@ -175,6 +178,20 @@ func test_a_hand_pushes_what_godot_moves() -> void:
 		check_near((here.place as Vector3).x, (there.place as Vector3).x, 0.002, "place")
 		check((here.place as Vector3).x > 0.15, "it went to %s" % here.place)
 	_hurry(false)
+
+
+func test_a_mass_told_to_the_physics_server_is_the_mass_that_is_felt() -> void:
+	_hurry(true)
+	var world := add_godot_world()
+	var plain := await _push_box(world, 60)
+	world.free()
+	world = add_godot_world()
+	var told := await _push_box(world, 60, 0.5)
+	_hurry(false)
+	var most := 0.0
+	for i in (plain.forces as PackedVector3Array).size():
+		most = maxf(most, (plain.forces[i] as Vector3).distance_to(told.forces[i]))
+	check(most < 0.05, "%.3f N" % most)
 
 
 func test_a_scripts_push_reaches_godots_body() -> void:
