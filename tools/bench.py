@@ -57,13 +57,14 @@ def _run(command: list, result: Path) -> int:
     return subprocess.run(command, env=os.environ | {"TACTUS_BENCH_JSON": str(result)}).returncode
 
 
-def run_in_godot(script: Path, result: Path) -> int:
+def run_in_godot(script: Path, result: Path, engine: str = "DEFAULT") -> int:
+    """`engine`: Godot's own physics, as the project's settings name it."""
     build.build("template_release", "extension")
-    command = [godot.command(), "--headless", "--path", _project_of_release(), "--script", script, "--", result]
+    command = [godot.command(), "--headless", "--path", _project_of_release(engine), "--script", script, "--", result]
     return subprocess.run(command).returncode
 
 
-def _project_of_release() -> Path:
+def _project_of_release(engine: str) -> Path:
     """An empty project with the library that players get; a Godot that has an editor would take the one for debugging."""
     folder = cache.emptied(cache.clone() / "build/bench_project")
     addon = folder / "addons/tactus"
@@ -72,7 +73,7 @@ def _project_of_release() -> Path:
     (addon / "bin").symlink_to(own / "bin")
     description = (own / "tactus.gdextension").read_text()
     (addon / "tactus.gdextension").write_text(description.replace("template_debug", "template_release"))
-    (folder / "project.godot").write_text("config_version=5\n")
+    (folder / "project.godot").write_text(f'config_version=5\n\n[physics]\n\n3d/physics_engine="{engine}"\n')
     project.name_extension(folder)
     return folder
 
