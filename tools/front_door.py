@@ -80,7 +80,7 @@ def needed(name: str, given: Given) -> list[Step]:
     if given.has("--with-sensing") or (name == "bench" and "sensing" in given.words and pcl.can_fetch()):
         plan.append(Step("PCL's headers", pcl.is_ready, pcl.fetch_headers))
     if name in ("bench", "test") or given.has("--figures"):
-        return [*plan, steps.export_template()] if name == "test" and not given.has("--sanitize") else plan
+        return [*plan, steps.checkers(), steps.export_template()] if name == "test" and not given.has("--sanitize") else plan
     # Eyes where a scene may ask for them; the demo's do not.
     eyes = () if name == "demo" or (name == "experiment" and "scenario5" not in given.words) else ("sensing",)
     debug, release = build.step("template_debug", *eyes), build.step("template_release", *eyes)

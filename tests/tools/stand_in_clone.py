@@ -76,7 +76,9 @@ class Clone:
             "LC_ALL": "C.UTF-8",
         }  # fmt: skip
         # As done: the tools' packages, and the export template of that Godot.
-        code = "import sys; sys.path[:0] = ['tools']; from setup import cache, python_tools as p; cache.mark_done(p._folder('venv'), p._key('venv'))"
+        (self.cache / "tactus/papers").mkdir()
+        mark = "[cache.mark_done(p._folder(name), p._key(name)) for name in ('venv', 'papers')]"
+        code = f"import sys; sys.path[:0] = ['tools']; from setup import cache, python_tools as p; {mark}"
         subprocess.run(["/usr/bin/python3", "-B", "-c", code], cwd=self.folder, env=self.environment, check=True)
         template = folder / "godot/export_templates/4.6.3.stable/linux_release.x86_64"
         template.parent.mkdir(parents=True)

@@ -1,6 +1,7 @@
 """What a newcomer reads: the README's length, links that lead somewhere, sentences that can be read, figures and names that are so."""
 
 import re
+import subprocess
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
@@ -8,7 +9,7 @@ import addon
 import docs
 import pytest
 import yaml
-from setup import cache
+from setup import cache, python_tools
 
 CLONE = cache.clone()
 DOCUMENTS = sorted([*CLONE.glob("*.md"), *(CLONE / "docs").rglob("*.md")])
@@ -89,6 +90,30 @@ def test_who_cites_names_this_version_and_its_license():
     assert citation["version"] == addon.version()
     assert (CLONE / "LICENSE").read_text().startswith(f"{citation['license']} License")
     assert citation["references"][0]["title"] in (CLONE / "docs/bibliography.md").read_text()
+
+
+def checked(checker: str, *words: str | Path) -> subprocess.CompletedProcess:
+    """By one of tools/papers/requirements.txt."""
+    return subprocess.run([python_tools.python("papers").with_name(checker), *words], text=True, capture_output=True)
+
+
+def test_the_citation_is_valid(tmp_path):
+    valid = checked("cffconvert", "--validate", "-i", CLONE / "CITATION.cff")
+    assert valid.returncode == 0, valid.stdout + valid.stderr
+    wrong = tmp_path / "CITATION.cff"
+    wrong.write_text((CLONE / "CITATION.cff").read_text().replace("type: thesis", "type: this is"))
+    assert checked("cffconvert", "--validate", "-i", wrong).returncode != 0
+
+
+def test_the_workflow_is_valid(tmp_path):
+    workflow = CLONE / ".github/workflows/build.yml"
+    lint = ("zizmor", "--offline", "--no-progress", "--strict-collection")
+    valid = checked(*lint, workflow)
+    assert valid.returncode == 0, valid.stdout + valid.stderr
+    wrong = tmp_path / ".github/workflows/build.yml"
+    wrong.parent.mkdir(parents=True)
+    wrong.write_text(workflow.read_text().replace("runs-on:", "runs_on:"))
+    assert checked(*lint, wrong).returncode != 0
 
 
 def test_states_of_a_link_are_those_that_the_code_reports():

@@ -1,7 +1,7 @@
 """Python packages in virtual environments of the cache, each file checked by its hash.
 
 "venv" has SCons, the formatters, matplotlib, Dask, Sphinx and pytest; "mujoco" what the bench of credibility asks; "zig" the
-compiler for macOS.
+compiler for macOS; "papers" the checkers of CITATION.cff and of the workflow.
 """
 
 import shutil
@@ -11,7 +11,12 @@ from pathlib import Path
 
 from . import cache, fetching
 
-REQUIREMENTS = {"venv": "tools/requirements.txt", "mujoco": "tools/credibility/requirements.txt", "zig": "tools/cross/requirements.txt"}
+REQUIREMENTS = {
+    "venv": "tools/requirements.txt",
+    "mujoco": "tools/credibility/requirements.txt",
+    "zig": "tools/cross/requirements.txt",
+    "papers": "tools/papers/requirements.txt",
+}
 
 
 def is_done(name: str = "venv") -> bool:
@@ -21,7 +26,8 @@ def is_done(name: str = "venv") -> bool:
 def install(name: str = "venv") -> None:
     shutil.rmtree(_folder(name), ignore_errors=True)
     subprocess.run([sys.executable, "-m", "venv", _folder(name)], check=True)
-    options = ["--quiet", "--disable-pip-version-check", "--no-compile", "--require-hashes", "--only-binary=:all:"]
+    # Each list is whole. One package is left out of its own: docopt has no wheel, and only a command that is not called needs it.
+    options = ["--quiet", "--disable-pip-version-check", "--no-compile", "--no-deps", "--require-hashes", "--only-binary=:all:"]
     command = [python(name), "-m", "pip", "install", *options, "-r", cache.clone() / REQUIREMENTS[name]]
     done = subprocess.run(command, text=True, capture_output=True)
     if done.returncode != 0:

@@ -27,6 +27,10 @@ def python() -> Step:
     return Step("Python tools", python_tools.is_done, python_tools.install)
 
 
+def checkers() -> Step:
+    return Step("Checkers of citation and workflow", lambda: python_tools.is_done("papers"), lambda: python_tools.install("papers"), alone=True)
+
+
 def dependencies() -> list[Step]:
     steps = [python()]
     if godot.installed() is None:
