@@ -63,11 +63,13 @@ func _run_experiment() -> void:
 	get_tree().quit(code)
 
 
-## The hand is the person's at once.
-func open(path: String) -> void:
+## The hand is the person's at once, but where its path begins again.
+func open(path: String, by_hand := true) -> void:
 	close()
 	_scene = (load(path) as PackedScene).instantiate()
-	_scene.get_node("Placard").by_hand = true
+	var placard := _scene.get_node("Placard")
+	placard.by_hand = by_hand
+	placard.ended.connect(open.bind(path, false), CONNECT_DEFERRED)
 	%Menu.visible = false
 	add_child(_scene)
 

@@ -20,13 +20,6 @@ const SCENES := {
 	4: "res://gallery/dynamic_testbed/dynamic_testbed.tscn",
 	5: "res://gallery/depth_camera/depth_camera.tscn",
 }
-const SCENARIOS := {
-	"1: a virtual world, no network": 1,
-	"2: over a network, forces as they come": 2,
-	"3: a robot, forces as they come": 3,
-	"4: over a network, by a model": 4,
-	"5: a robot and a camera, by a model": 5,
-}
 ## By choice, the scenarios that play it; the others are of every scenario.
 const ONLY_IN := {
 	"side": [2, 4],

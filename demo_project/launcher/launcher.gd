@@ -12,7 +12,6 @@ const Replay := preload("res://experiments/replay.gd")
 ## Each row of the form: its words, the choice, and what can be chosen: texts to values, an enumeration, or a
 ## range of numbers with its step; nothing: any text.
 const ROWS := [
-	["Scenario", "scenario", Launch.SCENARIOS],
 	[
 		"Side",
 		"side",
@@ -61,6 +60,7 @@ func _ready() -> void:
 	for words: String in [SCENARIO] + STUDIES.keys():
 		%What.add_item(words)
 	%What.item_selected.connect(func(index: int) -> void: choose_what(%What.get_item_text(index)))
+	%Scenarios.chosen.connect(func(scenario: int) -> void: _choose("scenario", scenario))
 	%StudyForm.changed.connect(_chosen)
 	%Start.pressed.connect(_start)
 	%Stop.pressed.connect(_stop)
@@ -134,6 +134,7 @@ func choose_what(words: String) -> void:
 	var is_study := STUDIES.has(words)
 	%StudyForm.visible = is_study
 	%Form.visible = not is_study
+	%Scenarios.visible = not is_study
 	if is_study:
 		%StudyForm.choose(STUDIES[words])
 	_chosen()

@@ -22,6 +22,8 @@ constexpr double max_radius = 1e3;
 
 constexpr float opaque = 1.0f;
 const Color proxy_color(0.1f, 0.4f, 0.9f, opaque);
+// A proxy behind a body is seen through it.
+const Color proxy_color_behind(0.25f, 0.55f, 1.0f, 0.3f);
 const Color hand_color(0.95f, 0.15f, 0.15f, opaque);
 
 void place(MeshInstance3D* picture, const PicturePart& part) {
@@ -146,7 +148,9 @@ void ProxyPointer::make_pictures() {
         return;
     }
     if (show_proxy_ && proxy_picture_ == nullptr) {
-        proxy_picture_ = add_picture(*this, drawn_shape(SphereShape{1.0}), lit_material(proxy_color));
+        const Ref<StandardMaterial3D> look = lit_material(proxy_color);
+        look->set_next_pass(see_through_material(proxy_color_behind));
+        proxy_picture_ = add_picture(*this, drawn_shape(SphereShape{1.0}), look);
     }
     if (show_hand_ && hand_picture_ == nullptr) {
         hand_picture_ = add_picture(*this, drawn_shape(SphereShape{1.0}), see_through_material(hand_color));

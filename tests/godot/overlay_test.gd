@@ -130,8 +130,8 @@ func test_counts_lie_below_the_ends_of_bins() -> void:
 
 func test_nodes_of_one_name_are_told_apart() -> void:
 	var paths := ["Lab/Here/Bed/World", "Lab/There/Bed/World", "Lab/There/Bed/Sky"]
-	check_equal(PanelScript.short_name(paths[0], paths), "Here World", "the first")
-	check_equal(PanelScript.short_name(paths[1], paths), "There World", "the second")
+	check_equal(PanelScript.short_name(paths[0], paths), "Here", "the first")
+	check_equal(PanelScript.short_name(paths[1], paths), "There", "the second")
 	check_equal(PanelScript.short_name(paths[2], paths), "Sky", "one that is alone")
 
 
@@ -139,6 +139,63 @@ func test_a_plots_scale_fits() -> void:
 	for pair: Array in [[0.0, 1.0], [0.3, 0.5], [1.0, 1.0], [1.1, 2.0], [30.0, 50.0], [700.0, 1000.0]]:
 		check_near(Plot.top_for(pair[0]), pair[1], 1e-9, "top for %s" % pair[0])
 	check_near(Plot.top_for(1000.9), 1000.0, 1e-9, "a loop that is a little too fast")
+
+
+## However it sways, as on a busy machine.
+func test_the_scale_of_the_loop_stays() -> void:
+	var rate: Control = _overlay().get_node("%Panel").get_node("%Rate")
+	rate.size = Vector2(300, 60)
+	for value: float in [1000.0, 1000.9, 1083.0, 920.0]:
+		rate.add("World", value, value)
+		check("0 … 1200 Hz" in rate.words()[0].text, "at %s: %s" % [value, rate.words()[0].text])
+
+
+func test_figures_have_three_digits() -> void:
+	for pair: Array in [
+		[1015.01, "1015"], [15.63, "15.6"], [4.04, "4.04"], [0.0, "0"], [-1236.6, "-1237"], [20.0, "20"]
+	]:
+		check_equal(Plot.in_short(pair[0]), pair[1], "of %s" % pair[0])
+
+
+func test_names_that_are_too_long_lose_their_beginning() -> void:
+	var plot := Plot.new()
+	add_child(plot)
+	plot.size = Vector2(200, 64)
+	plot.add("a pointer with a name that is longer than any plot", 0.0, 1.5)
+	await frames(2)
+	var legend: String = plot.words()[1].text
+	check(legend.begins_with("…") and legend.ends_with("any plot 1.5"), legend)
+
+
+func test_what_nothing_is_known_of_is_not_plotted() -> void:
+	var overlay := _overlay()
+	var panel: Control = overlay.get_node("%Panel")
+	var nothing := {"time": 1.0, "worlds": {}, "links": {}, "devices": {}, "pointers": {}, "sensors": {}}
+	panel.show_figures(nothing)
+	panel.show_histograms({"World": PackedInt32Array([0, 0])})
+	for plot: String in ["Rate", "Work", "Periods", "Force", "Energy", "Link", "Moved", "Noticed"]:
+		check(not panel.get_node("%" + plot).visible, "an empty plot: " + plot)
+	panel.show_histograms({"World": PackedInt32Array([0, 3])})
+	check(panel.get_node("%Periods").visible, "periods are hidden")
+
+
+## What it covers is left free by the words beside it; what is too high for the window stands in two columns.
+func test_it_tells_what_it_covers_and_stays_in_the_window() -> void:
+	var overlay := _overlay()
+	var told := []
+	overlay.room_taken.connect(func(width: float) -> void: told.append(width))
+	overlay.shown = true
+	check_equal(told[-1], 372.0, "width")
+	var panel: Control = overlay.get_node("%Panel")
+	for i in 40:
+		for plot: String in ["Rate", "Work", "Force", "Energy", "Link"]:
+			panel.get_node("%" + plot).add("a curve that has a long name %d" % i, 0.0, 1.0)
+	for _i in 4:
+		overlay._keep_within_window()
+		await frames(2)
+	check(panel.columns > 1 and told[-1] > 372.0, "%d columns, %s" % [panel.columns, told])
+	overlay.shown = false
+	check_equal(told[-1], 0.0, "width while it is hidden")
 
 
 func test_one_is_not_several() -> void:

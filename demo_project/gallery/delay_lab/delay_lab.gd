@@ -55,6 +55,8 @@ func _ready() -> void:
 	for slider: HSlider in [%Delay, %Jitter, %Loss]:
 		slider.value_changed.connect(func(_value: float) -> void: _set_network())
 	_set_network()
+	# The overlay plots the same forces.
+	$Placard/%Overlay.room_taken.connect(func(width: float) -> void: %Felt.visible = width == 0.0)
 
 
 func _fill(button: OptionButton, choices: Dictionary, chosen: int, choose: Callable) -> void:

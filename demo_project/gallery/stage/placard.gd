@@ -4,12 +4,14 @@ extends CanvasLayer
 ##
 ## A scene that is shown within another one leaves all this to that one.
 
+## The paths of its hands are over, and none of them leads back to its beginning.
+signal ended
+
 const Gallery := preload("res://gallery/gallery.gd")
 const MENU := "res://main.tscn"
-const KEYS := (
-	"Mouse, wheel: hand   Tab: mouse or path   R: again   H: words   F3: plots   F4: trace   F5: boxes   "
-	+ "Escape: menu"
-)
+const KEYS := "Mouse, wheel: hand   Tab: mouse or path   R: again   H: words   F3: plots   Escape: menu"
+## How long what a path has come to is shown before it begins again, in seconds.
+const REST := 2.0
 
 ## The one that the person's hands are in.
 @export var world: HapticWorld
@@ -32,12 +34,49 @@ func _ready() -> void:
 	%Sentence.text = words[1]
 	%Keys.text = KEYS if more_keys.is_empty() else more_keys + "   " + KEYS
 	%Readings.visible = shows_readings
+	%Overlay.room_taken.connect(func(width: float) -> void: %Rows.offset_right = -width)
+	for part: Control in [%Rows, %Head, %Foot]:
+		part.resized.connect(_make_room)
+	_make_room()
 	if by_hand:
 		_give_hands(true)
 	# Where there is no loudspeaker nobody hears it.
 	if AudioServer.get_driver_name() != "Dummy":
 		for proxy in world.find_children("*", "ProxyPointer", true, false):
 			proxy.add_child(HapticVibrationSound.new())
+
+
+## What a scene draws in the window itself stands between the placard's words, and beside the overlay.
+func _make_room() -> void:
+	var scene := owner as Control
+	if scene == null:
+		return
+	scene.offset_top = %Head.size.y
+	scene.offset_bottom = -%Foot.size.y
+	scene.offset_right = %Rows.offset_right
+
+
+## A path that leads nowhere begins again with its scene: what it has pushed is where it was.
+func _process(_delta: float) -> void:
+	if not by_hand and world.get_time() > _end_of_paths() + REST:
+		set_process(false)
+		ended.emit()
+		if owner == get_tree().current_scene:
+			get_tree().reload_current_scene()
+
+
+## In seconds; never where one leads back to its beginning, or where there is none.
+func _end_of_paths() -> float:
+	var end := 0.0
+	for device: HapticDevice in world.find_children("*", "HapticDevice", true, false):
+		var path := device.path
+		if path == null:
+			continue
+		var leads_back := path.points_loop if path.form == HapticPath.FORM_POINTS else path.curve_loop
+		if leads_back or path.form == HapticPath.FORM_CIRCLE_WAVE:
+			return INF
+		end = maxf(end, path.get_duration())
+	return end if end > 0.0 else INF
 
 
 func _give_hands(to_person: bool) -> void:

@@ -1,7 +1,7 @@
 @tool
 extends Control
 ## The histogram of a loop's periods, from half of what is wanted to one and a half, logarithmic: single late
-## ticks are seen beside a thousand punctual ones.
+## ticks are seen beside a thousand punctual ones. Hidden while nothing has been counted.
 @warning_ignore_start("inferred_declaration", "untyped_declaration", "return_value_discarded", "unsafe_cast")
 @warning_ignore_start("unsafe_method_access", "unsafe_property_access", "unsafe_call_argument")
 
@@ -14,6 +14,7 @@ var _period_us := 1000.0
 func show_counts(counts: PackedInt32Array, period_us: float) -> void:
 	_counts = counts
 	_period_us = period_us
+	visible = Array(counts).any(func(count: int) -> bool: return count > 0)
 	queue_redraw()
 
 
@@ -30,7 +31,19 @@ func _draw() -> void:
 			)
 			draw_rect(bar, Plot.COLORS[0])
 	draw_line(Vector2(0.5 * size.x, 0.25 * size.y), Vector2(0.5 * size.x, size.y), Plot.WORDS)
-	var words := "periods   %d … %d µs, of the last second" % [0.5 * _period_us, 1.5 * _period_us]
-	var font := get_theme_default_font()
-	var place := Vector2(6, Plot.FONT_SIZE + 2)
-	draw_string(font, place, words, HORIZONTAL_ALIGNMENT_LEFT, -1, Plot.FONT_SIZE, Plot.WORDS)
+	var head: Dictionary = words()[0]
+	draw_string(
+		get_theme_default_font(),
+		head.at,
+		head.text,
+		HORIZONTAL_ALIGNMENT_LEFT,
+		-1,
+		Plot.FONT_SIZE,
+		head.color
+	)
+
+
+## All that is written, as a plot's.
+func words() -> Array[Dictionary]:
+	var head := "periods   %d … %d µs, of the last second" % [0.5 * _period_us, 1.5 * _period_us]
+	return [{text = head, at = Vector2(Plot.MARGIN, Plot.LINE - 2), color = Plot.WORDS}]

@@ -4,10 +4,15 @@ extends CanvasLayer
 @warning_ignore_start("inferred_declaration", "untyped_declaration", "return_value_discarded", "unsafe_cast")
 @warning_ignore_start("unsafe_method_access", "unsafe_property_access", "unsafe_call_argument")
 
+## How much of the window's right it covers, in pixels; none while it is hidden.
+signal room_taken(width: float)
+
 const Figures := preload("figures.gd")
 const Monitors := preload("monitors.gd")
 const EVERY := 0.1  # seconds
 const HISTOGRAM_EVERY := 1.0  # seconds
+const COLUMN := 340.0  # pixels
+const MARGIN := 16.0  # pixels
 
 ## Shows and hides it.
 @export var key: Key = KEY_F3
@@ -31,6 +36,9 @@ var _recorder: HapticRecorder
 
 func _ready() -> void:
 	Monitors.add(get_tree())
+	var keys := [key, trace_key, boxes_key].map(OS.get_keycode_string)
+	%Keys.text = "%s: hide   %s: trace   %s: boxes of trees" % keys
+	get_viewport().size_changed.connect(_lay_out.bind(1))
 	_show()
 
 
@@ -43,6 +51,21 @@ func _show() -> void:
 	_figures = Figures.new() if shown else null
 	if not shown:
 		%Panel.clear()
+	_lay_out(1)
+
+
+func _lay_out(columns: int) -> void:
+	%Panel.columns = columns
+	%Panel.offset_left = -MARGIN - COLUMN * columns
+	room_taken.emit(MARGIN - %Panel.offset_left if shown else 0.0)
+
+
+## What does not fit below each other stands beside each other.
+func _keep_within_window() -> void:
+	var room := get_viewport().get_visible_rect().size - 2.0 * Vector2(MARGIN, MARGIN)
+	var is_too_high: bool = %Panel.get_combined_minimum_size().y > room.y
+	if is_too_high and COLUMN * (%Panel.columns + 1) <= room.x:
+		_lay_out(%Panel.columns + 1)
 
 
 func _process(delta: float) -> void:
@@ -55,6 +78,7 @@ func _process(delta: float) -> void:
 	if _histogram_waited >= HISTOGRAM_EVERY:
 		_histogram_waited = 0.0
 		%Panel.show_histograms(_figures.histograms())
+	_keep_within_window()
 
 
 func _unhandled_key_input(event: InputEvent) -> void:

@@ -16,12 +16,10 @@ func show_figures(figures: Dictionary) -> void:
 		_period_us[world] = figures.worlds[world].period_us
 	for pointer: String in figures.pointers:
 		%Force.add(short_name(pointer, figures.pointers.keys()), time, figures.pointers[pointer].force_n)
-	%Energy.visible = %Energy.visible or figures.devices.values().any(_works)
 	for device: String in figures.devices:
-		%Energy.add(short_name(device, figures.devices.keys()), time, figures.devices[device].energy_mj)
-	%Link.visible = %Link.visible or figures.links.values().any(_hears)
-	%Moved.visible = %Moved.visible or figures.links.values().any(_corrects)
-	%Noticed.visible = %Moved.visible
+		var curve := short_name(device, figures.devices.keys())
+		if %Energy.has(curve) or figures.devices[device].energy_mj != 0.0:
+			%Energy.add(curve, time, figures.devices[device].energy_mj)
 	for link: String in figures.links:
 		_show_link(short_name(link, figures.links.keys()), time, figures.links[link])
 	%Said.text = _said(figures)
@@ -29,10 +27,6 @@ func show_figures(figures: Dictionary) -> void:
 
 func _hears(link: Dictionary) -> bool:
 	return link.packets_per_s > 0.0
-
-
-func _works(device: Dictionary) -> bool:
-	return absf(device.energy_mj) > 0.0
 
 
 func _corrects(link: Dictionary) -> bool:
@@ -47,7 +41,8 @@ func _show_world(world: String, time: float, figures: Dictionary) -> void:
 
 ## Over a link: what is corrected, what of that could be noticed, and what hiding it lives on.
 func _show_link(link: String, time: float, figures: Dictionary) -> void:
-	%Link.add(link, time, figures.round_trip_ms)
+	if %Link.has(link) or figures.round_trip_ms > 0.0:  # the operator's side measures it
+		%Link.add(link, time, figures.round_trip_ms)
 	if _corrects(figures):
 		_add_rate(%Moved, link, time, figures.moved_mm)
 		_add_rate(%Noticed, link, time, figures.jnds)
@@ -74,12 +69,11 @@ func clear() -> void:
 	_counted.clear()
 	for plot: Control in [%Rate, %Work, %Force, %Energy, %Link, %Moved, %Noticed]:
 		plot.clear()
-	for plot: Control in [%Energy, %Link, %Moved, %Noticed]:
-		plot.hide()
+	%Periods.hide()
 	%Said.text = ""
 
 
-## The name of a node; where others are called so too, after what tells it from them on the way to it.
+## The name of a node; where others are called so too, the nearest one above it that tells it from them.
 static func short_name(path: String, among: Array) -> String:
 	var own := path.split("/")
 	for above in range(1, own.size() + 1):
@@ -89,7 +83,7 @@ static func short_name(path: String, among: Array) -> String:
 				other == path or words[-1] != own[-1] or words.size() < above or words[-above] != own[-above]
 			)
 		if among.all(tells):
-			return own[-1] if above == 1 else "%s %s" % [own[-above], own[-1]]
+			return own[-above]
 	return path
 
 
@@ -101,8 +95,10 @@ func _said(figures: Dictionary) -> String:
 	var lines := PackedStringArray()
 	for kind: String in ["worlds", "devices", "links", "sensors"]:
 		for path: String in figures[kind]:
-			var called := short_name(path, figures[kind].keys())
-			lines.append("%s: %s" % [called, _said_of(kind, figures[kind][path])])
+			var said := _said_of(kind, figures[kind][path])
+			# What is as it should be is seen.
+			if kind != "devices" or said != "connected":
+				lines.append("%s: %s" % [short_name(path, figures[kind].keys()), said])
 	return "\n".join(lines)
 
 

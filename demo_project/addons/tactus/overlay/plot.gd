@@ -1,6 +1,6 @@
 @tool
 extends Control
-## Curves over the last seconds, with a scale that fits them.
+## Curves over the last seconds, with a scale that fits them; hidden while there is none.
 @warning_ignore_start("inferred_declaration", "untyped_declaration", "return_value_discarded", "unsafe_cast")
 @warning_ignore_start("unsafe_method_access", "unsafe_property_access", "unsafe_call_argument")
 
@@ -14,7 +14,7 @@ const FONT_SIZE := 12
 const LINE := FONT_SIZE + 4
 const MARGIN := 6.0
 ## Height of the curves where there is little room, in pixels.
-const LEAST := 26.0
+const LEAST := 22.0
 ## What a larger value may exceed the top of the scale by: a loop of 1000.9 Hz is one of 1000.
 const TOLERANCE := 1.05
 
@@ -38,13 +38,18 @@ func add(curve: String, time: float, value: float) -> void:
 	if gone > 0:
 		_times[curve] = _times[curve].slice(gone)
 		_values[curve] = _values[curve].slice(gone)
+	show()
 	queue_redraw()
+
+
+func has(curve: String) -> bool:
+	return _values.has(curve)
 
 
 func clear() -> void:
 	_times.clear()
 	_values.clear()
-	queue_redraw()
+	hide()
 
 
 ## The top of the scale: 1, 2 or 5 times a power of ten.
@@ -58,50 +63,81 @@ static func top_for(largest: float) -> float:
 	return 10.0 * power
 
 
-func _draw() -> void:
-	draw_rect(Rect2(Vector2.ZERO, size), PAPER)
+## A figure with three digits that count, without trailing zeros.
+static func in_short(value: float) -> String:
+	var digits := 2 - floori(log(maxf(absf(value), 1e-2)) / log(10.0) + 1e-9)
+	var text := String.num(value, clampi(digits, 0, 3))
+	return text.trim_suffix(".0")
+
+
+## All that is written, from top to bottom: {text, at (its baseline), color}, its texts within the width.
+func words() -> Array[Dictionary]:
+	var written: Array[Dictionary] = []
+	var place := Vector2(MARGIN, LINE - 2)
+	var scale_ends := _scale_ends()
+	var head := "%s   %s … %s %s" % [title, in_short(scale_ends.x), in_short(scale_ends.y), unit]
+	written.append({text = _shortened(head, ""), at = place, color = WORDS})
+	for curve: String in _values:
+		var legend := _shortened(curve, " " + in_short(_values[curve][-1]))
+		var wide := _width_of(legend)
+		if written.size() == 1 or place.x + wide > size.x - MARGIN:
+			place = Vector2(MARGIN, place.y + LINE)
+		written.append({text = legend, at = place, color = COLORS[(written.size() - 1) % COLORS.size()]})
+		place.x += wide + 2 * MARGIN
+	return written
+
+
+func _width_of(text: String) -> float:
+	return get_theme_default_font().get_string_size(text, HORIZONTAL_ALIGNMENT_LEFT, -1, FONT_SIZE).x
+
+
+## A name and what follows it; where that is wider than the plot, without the beginning of the name.
+func _shortened(name: String, rest: String) -> String:
+	var text := name + rest
+	while name.length() > 1 and _width_of(text) > size.x - 2 * MARGIN:
+		name = name.substr(1)
+		text = "…" + name + rest
+	return text
+
+
+func _scale_ends() -> Vector2:
 	var largest := at_least
 	var least := 0.0
-	var now := 0.0
 	for curve: String in _values:
 		for value: float in _values[curve]:
 			largest = maxf(largest, value)
 			least = minf(least, value)
-		now = maxf(now, _times[curve][-1])
-	var top := top_for(largest)
-	var bottom := -top_for(-least) if least < 0.0 else 0.0
-	var area := _draw_words("%s   %s … %s %s" % [title, String.num(bottom, 3), String.num(top, 3), unit])
+	var top := at_least if largest <= at_least else top_for(largest)
+	return Vector2(-top_for(-least) if least < 0.0 else 0.0, top)
+
+
+func _draw() -> void:
+	draw_rect(Rect2(Vector2.ZERO, size), PAPER)
+	var scale_ends := _scale_ends()
+	var area := _draw_words()
 	for i: int in 4:
 		var y := area.position.y + area.size.y * i / 4
 		draw_line(Vector2(0, y), Vector2(size.x, y), GRID)
-	if bottom < 0.0:
-		var zero := area.position.y + area.size.y * top / (top - bottom)
+	if scale_ends.x < 0.0:
+		var zero := area.position.y + area.size.y * scale_ends.y / (scale_ends.y - scale_ends.x)
 		draw_line(Vector2(0, zero), Vector2(size.x, zero), WORDS)
+	var now := 0.0
+	for curve: String in _times:
+		now = maxf(now, _times[curve][-1])
 	var index := 0
 	for curve: String in _values:
-		_draw_curve(curve, now, Vector2(bottom, top), area, COLORS[index % COLORS.size()])
+		_draw_curve(curve, now, scale_ends, area, COLORS[index % COLORS.size()])
 		index += 1
 
 
-## The title and, in as many lines as they need, the names of the curves with their last values. Returns what
-## is left for the curves.
-func _draw_words(head: String) -> Rect2:
-	var font := get_theme_default_font()
-	var width := size.x - 2 * MARGIN
-	draw_string(font, Vector2(MARGIN, LINE - 2), head, HORIZONTAL_ALIGNMENT_LEFT, width, FONT_SIZE, WORDS)
-	var place := Vector2(MARGIN, LINE - 2)
-	var index := 0
-	for curve: String in _values:
-		var legend := "%s %s" % [curve, String.num(_values[curve][-1], 2)]
-		var wide := font.get_string_size(legend, HORIZONTAL_ALIGNMENT_LEFT, -1, FONT_SIZE).x
-		if index == 0 or place.x + wide > width:
-			place = Vector2(MARGIN, place.y + LINE)
+## Returns what is left for the curves.
+func _draw_words() -> Rect2:
+	var used := 0.0
+	for word in words():
 		draw_string(
-			font, place, legend, HORIZONTAL_ALIGNMENT_LEFT, width, FONT_SIZE, COLORS[index % COLORS.size()]
+			get_theme_default_font(), word.at, word.text, HORIZONTAL_ALIGNMENT_LEFT, -1, FONT_SIZE, word.color
 		)
-		place.x += wide + 2 * MARGIN
-		index += 1
-	var used := place.y + MARGIN
+		used = word.at.y + MARGIN
 	var needed := used + LEAST
 	if not is_equal_approx(custom_minimum_size.y, needed):
 		set_deferred("custom_minimum_size", Vector2(custom_minimum_size.x, needed))
