@@ -24,14 +24,14 @@ const SECONDS := {
 	"deforming_mesh": 4.0,
 	"soft": 1.6,
 	"peg_in_hole": 2.6,
-	"two_operators": 2.4,
+	"two_operators": 2.5,
 	"delay_lab": 4.0,
 	"remote_tool": 2.6,
 	"wrong_model": 4.0,
 	"teleoperated_robot": 3.0,
 	"robot_tool": 8.5,
-	"depth_camera": 6.0,
-	"point_cloud": 8.5,
+	"depth_camera": 5.5,
+	"point_cloud": 7.0,
 }
 ## What a depth camera needs to find what stands before it, at most.
 const FINDS_WITHIN := 120.0

@@ -5,7 +5,6 @@ extends SceneTree
 const Gallery := preload("res://gallery/gallery.gd")
 const Stepping := preload("res://gallery/stage/stepping.gd")
 const RIG := "res://addons/tactus/HapticRig.tscn"
-const OVERLAY := "res://addons/tactus/overlay/overlay.tscn"
 const SIZE := Vector2i(1280, 720)
 const FRAME := 1.0 / 60.0
 const FINDS_WITHIN := 120.0
@@ -29,10 +28,11 @@ const GALLERY := {
 	"pinch": 4.5,
 	"peg_in_hole": 2.6,
 	"delay_lab": 4.0,
-	"two_operators": 2.4,
+	"two_operators": 2.5,
 	"wrong_model": 4.0,
 	"teleoperated_robot": 3.0,
-	"depth_camera": 6.0,
+	"depth_camera": 5.5,
+	"point_cloud": 7.0,
 }
 ## With the mouse at a place of the rig's table.
 const RIG_TOUCHES := {"rig_ball": Vector3(-0.14, 0.06, -0.02), "rig_cushion": Vector3(0.16, 0.02, -0.03)}
@@ -127,13 +127,11 @@ func _page(called: String, file: String, seconds: float) -> void:
 
 func _overlaid(called: String, shot: Array) -> void:
 	var scene := _added(shot[0])
-	var overlay: CanvasLayer = (load(OVERLAY) as PackedScene).instantiate()
-	root.add_child(overlay)
+	var overlay: CanvasLayer = scene.get_node("Placard/%Overlay")
 	overlay.set("shown", true)
 	overlay.get_node("%Drawing").set("draws_boxes", shot[2])
 	await create_timer(shot[1]).timeout
 	await _save(called)
-	overlay.free()
 	scene.free()
 
 

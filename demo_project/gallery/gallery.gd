@@ -27,7 +27,7 @@ const SCENES := {
 	"force_effect":
 	[
 		"Your own force",
-		"A script lets water flow round a post: hold still in it, cross it, or be carried along."
+		"A script makes a current round a post: hold still and be pushed, cross it, or be carried along."
 	],
 	"effects":
 	[
@@ -81,7 +81,7 @@ const SCENES := {
 	"delay_lab":
 	[
 		"Far away",
-		"Touch the box over a network: set its delay, and switch between direct and model-mediated."
+		"Left your copy, right the box, a delay away. Key 2: its force comes late. Key 4: the copy's, at once."
 	],
 	"remote_tool":
 	[
@@ -91,7 +91,7 @@ const SCENES := {
 	"wrong_model":
 	[
 		"A wrong model",
-		"The mass and friction of the local model are wrong. Push it: its correction is not felt."
+		"Your copy, left, is too heavy and too smooth. Push it: it follows the true box without a jolt."
 	],
 	"two_operators":
 	["Two operators", "Another operator pushes the same box; the pale sphere is that operator's proxy."],
@@ -100,17 +100,23 @@ const SCENES := {
 	"robot_tool":
 	[
 		"A robot with a tool",
-		"A robot carries the bar and cannot turn it, so yours does not turn. A post that it alone has stops it."
+		"A robot far away carries the real bar, and cannot turn it. A post that it alone runs into stops you too."
 	],
 	"depth_camera":
 	[
 		"A camera",
-		"What a depth camera finds on a table becomes bodies that are felt, and a robot touches the real ones."
+		"A depth camera has found the green bodies. Touch them here, and a robot touches the real ones."
 	],
 	"point_cloud":
-	["Points", "The objects are unknown. Their points, as the camera sees them, are the surface."],
+	[
+		"Points",
+		"A depth camera sees what it does not know as points. Touch them: the points are the surface."
+	],
 	"device_check":
-	["Check a device", "Is it found, does it know where it is, does it push back the right way?"],
+	[
+		"Check a device",
+		"Choose your device and do what is asked: is it found, where is it, does it push back the right way?"
+	],
 }
 
 

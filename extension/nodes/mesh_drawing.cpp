@@ -48,6 +48,14 @@ Ref<StandardMaterial3D> see_through_material(const Color& color) {
     return material;
 }
 
+Ref<StandardMaterial3D> point_material(const Color& color, float size) {
+    Ref<StandardMaterial3D> material = lit_material(color);
+    material->set_shading_mode(BaseMaterial3D::SHADING_MODE_UNSHADED);
+    material->set_flag(BaseMaterial3D::FLAG_USE_POINT_SIZE, true);
+    material->set_point_size(size);
+    return material;
+}
+
 MeshInstance3D* add_picture(Node& to, const Ref<Mesh>& mesh, const Ref<Material>& look) {
     MeshInstance3D* picture = memnew(MeshInstance3D);
     picture->set_mesh(mesh);

@@ -27,6 +27,9 @@ void add_surface(godot::ArrayMesh& mesh, godot::Mesh::PrimitiveType kind, const 
 godot::Ref<godot::StandardMaterial3D> lit_material(const godot::Color& color);
 godot::Ref<godot::StandardMaterial3D> see_through_material(const godot::Color& color);
 
+// Bright; of meshes of points, each a square of that size (unit: pixels).
+godot::Ref<godot::StandardMaterial3D> point_material(const godot::Color& color, float size);
+
 // A child that the scene does not see and that throws no shadow.
 godot::MeshInstance3D* add_picture(godot::Node& to, const godot::Ref<godot::Mesh>& mesh,
                                    const godot::Ref<godot::Material>& look);

@@ -22,6 +22,8 @@ namespace {
 const Color known_color(0.25f, 0.65f, 0.35f, 1.0f);
 const Color unknown_color(0.85f, 0.6f, 0.2f, 1.0f);
 
+constexpr float point_size = 3.0f;  // of the cloud (unit: pixels)
+
 // Of the support (unit: meters).
 constexpr float support_size = 2.0f;
 constexpr float support_thickness = 0.04f;
@@ -183,7 +185,7 @@ void SeenBodies::draw_cloud(Node3D& sensor, const Sight& sight, bool is_wanted) 
         return;
     }
     if (drawn == nullptr) {
-        drawn = add_picture(sensor, Ref<Mesh>(), see_through_material(cloud_color));
+        drawn = add_picture(sensor, Ref<Mesh>(), point_material(cloud_color, point_size));
         cloud_ = drawn->get_instance_id();
     }
     Ref<ArrayMesh> mesh;

@@ -115,6 +115,22 @@ func test_the_words_of_every_scene_fit() -> void:
 	OS.low_processor_usage_mode_sleep_usec = rest
 
 
+func test_a_scene_of_two_views_has_the_window_to_itself_without_words() -> void:
+	for hides_first: bool in [true, false]:
+		var scene := (load(Gallery.path_of("two_operators")) as PackedScene).instantiate() as Control
+		add_child(scene)
+		var placard: CanvasLayer = scene.get_node("Placard")
+		if not hides_first:
+			await frames(3)
+			var between: Control = placard.get_node("%Rows/Space")
+			check_near(scene.position.y, between.position.y, 12.0, "top below the words")
+			check_near(scene.get_rect().end.y, between.get_rect().end.y, 12.0, "bottom above the words")
+		placard.hide()
+		await frames(3)
+		check_equal(scene.get_rect(), get_tree().root.get_visible_rect(), "place")
+		scene.free()
+
+
 ## It begins again with its scene, what it has pushed where it was; never while a person has the hand.
 func test_a_path_that_leads_nowhere_begins_again() -> void:
 	var menu := _menu()

@@ -92,6 +92,17 @@ def test_who_cites_names_this_version_and_its_license():
     assert citation["references"][0]["title"] in (CLONE / "docs/bibliography.md").read_text()
 
 
+def test_each_claim_of_the_comparison_has_its_source_beside_it():
+    features = re.search(r"^## Features\n\n(.*?)\n\n", (CLONE / "docs/comparison.md").read_text(), re.DOTALL | re.MULTILINE)
+    assert features
+    head, _, *rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in features[1].splitlines()]
+    others = head[2:-1]
+    assert others and all(re.fullmatch(r"\[.+\]\(https://.+\)", name) for name in others)
+    for row in rows:
+        assert len(row) == len(head), row[0]
+        assert "none yet" in row[1] or re.search(r"\]\(.+\)|`\./run .+`", row[-1]), row[0]
+
+
 def checked(checker: str, *words: str | Path) -> subprocess.CompletedProcess:
     """By one of tools/papers/requirements.txt."""
     return subprocess.run([python_tools.python("papers").with_name(checker), *words], text=True, capture_output=True)

@@ -105,7 +105,7 @@ func _process(_delta: float) -> void:
 		return
 	var lines := PackedStringArray([_here.get_state_text()])
 	lines.append("round trip %d ms" % roundi(figures.round_trip_s * 1e3))
-	lines.append("%d packets/s there, %d back" % [figures.packets_sent_per_s, figures.packets_received_per_s])
+	lines.append("%d packets/s, %d back" % [figures.packets_sent_per_s, figures.packets_received_per_s])
 	if _here.scenario == MMTLink.SCENARIO_MMT:
 		lines.append("%d corrections" % figures.corrections)
 		lines.append("largest step %.3f N" % figures.correction_force_step_max_n)

@@ -37,6 +37,7 @@ func _ready() -> void:
 	%Overlay.room_taken.connect(func(width: float) -> void: %Rows.offset_right = -width)
 	for part: Control in [%Rows, %Head, %Foot]:
 		part.resized.connect(_make_room)
+	visibility_changed.connect(_make_room)
 	_make_room()
 	if by_hand:
 		_give_hands(true)
@@ -51,9 +52,9 @@ func _make_room() -> void:
 	var scene := owner as Control
 	if scene == null:
 		return
-	scene.offset_top = %Head.size.y
-	scene.offset_bottom = -%Foot.size.y
-	scene.offset_right = %Rows.offset_right
+	scene.offset_top = %Head.size.y if visible else 0.0
+	scene.offset_bottom = -%Foot.size.y if visible else 0.0
+	scene.offset_right = %Rows.offset_right if visible else 0.0
 
 
 ## A path that leads nowhere begins again with its scene: what it has pushed is where it was.
