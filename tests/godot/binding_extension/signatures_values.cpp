@@ -124,6 +124,7 @@ void list_values() {
     constructor<NodePath, const NodePath&>();
     constructor<NodePath, const String&>();
     constructor<NodePath>();
+    same<bool (NodePath::*)() const>(&NodePath::is_absolute);
     same<bool (NodePath::*)() const>(&NodePath::is_empty);
     same<int64_t (NodePath::*)() const>(&NodePath::get_name_count);
 
