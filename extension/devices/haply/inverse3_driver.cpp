@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdio>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "platform/clock.hpp"
 
@@ -85,6 +86,7 @@ void Inverse3Driver::close() {
     }
     socket_.close();
     sent_ = Vec3(0.0);
+    is_ahead_ = false;
     claim_.give_back();
 }
 
@@ -161,16 +163,20 @@ Driver::Exchange Inverse3Driver::exchange(ForceSlot& forces, Nanoseconds until, 
             reading.at = now;
             forces.heard(now, now);
             const Vec3 force = forces.living(now);
-            send(reading.sample.connected ? force : Vec3(0.0));
-            forces.given(monotonic_now());
+            if (!std::exchange(is_ahead_, false)) {
+                send(reading.sample.connected ? force : Vec3(0.0));
+                forces.given(monotonic_now());
+            }
             if (!reading.sample.connected) {
                 forces.taken();  // whether or not the loop sees this reading
             }
             return Exchange::reading;
         }
-        // A newer force of the loop waits for the next state.
+        // A newer force of the loop waits for the next state. That none is left does not: it is the answer to
+        // the next state, since one message more than there are states would wait there, and all behind it.
         if (sent_ != Vec3(0.0) && now > forces.end() && forces.living(now) == Vec3(0.0)) {
             send(Vec3(0.0));
+            is_ahead_ = true;
         }
         if (now >= until) {
             return Exchange::nothing;

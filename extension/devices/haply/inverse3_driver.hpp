@@ -40,7 +40,8 @@ private:
     WebSocket socket_;
     JsonReader json_;
     std::string text_;
-    Vec3 sent_{0.0};  // (unit: newtons)
+    Vec3 sent_{0.0};         // (unit: newtons)
+    bool is_ahead_ = false;  // the next state has its answer
     bool is_calibrated_ = true, is_powered_ = true;
 };
 

@@ -58,6 +58,23 @@ TEST(Inverse3, AStalledLoopLetsTheHandGo) {
     EXPECT_TRUE(wait_until([&] { return service.force() == "0.0 0.0 0.0"; }));
 }
 
+// The service takes one message for each state: each one more was an answer late, with all forces behind it.
+TEST(Inverse3, AForceIsNoLaterAfterManyCuts) {
+    NEEDS_LIBRARIES();
+    HaplyService service;
+    const auto device = inverse3(service);
+    constexpr int cuts = 40;
+    for (int i = 0; i < cuts; ++i) {
+        ASSERT_TRUE(tick_until(*device, {1.0, 0.0, 0.0},
+                               [&](const auto&) { return service.force() == "1.0 0.0 0.0"; }));
+        ASSERT_TRUE(wait_until([&] { return service.force() == "0.0 0.0 0.0"; }));
+    }
+    const std::uint64_t before = device->health().readings;
+    ASSERT_TRUE(
+        tick_until(*device, {1.0, 0.0, 0.0}, [&](const auto&) { return service.force() == "1.0 0.0 0.0"; }));
+    EXPECT_LT(device->health().readings - before, cuts / 2);
+}
+
 // Its last buttons stayed held, and with them a dead man's button.
 TEST(Inverse3, AGripThatSleepsOrIsOutOfReachHoldsNoButton) {
     NEEDS_LIBRARIES();
