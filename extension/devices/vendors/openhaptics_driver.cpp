@@ -260,7 +260,8 @@ Driver::Exchange OpenHapticsDriver::exchange(ForceSlot& forces, Nanoseconds unti
         start_scheduler();
     }
     const auto has_news = [this] {
-        return frames_.is_fresh() || fault_.load(std::memory_order_acquire) != 0;
+        return frames_.is_fresh() || fault_.load(std::memory_order_acquire) != 0 ||
+               is_stopped_.load(std::memory_order_acquire);
     };
     served_signal_.wait_until(until, {}, has_news);
     if (fault_.load(std::memory_order_acquire) != 0) {
