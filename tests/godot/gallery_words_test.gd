@@ -43,6 +43,24 @@ func test_no_words_are_cut_or_over_others() -> void:
 	OS.low_processor_usage_mode_sleep_usec = rest
 
 
+func test_no_words_of_the_launcher_are_cut_or_over_others() -> void:
+	var root := get_tree().root
+	var before := root.size
+	var launcher := (load("res://launcher/launcher.tscn") as PackedScene).instantiate()
+	add_child(launcher)
+	for size in SIZES:
+		root.size = size
+		for card: Button in launcher.get_node("%Scenarios").get_children():
+			card.button_pressed = true
+			card.pressed.emit()
+			await frames(3)
+			for found in _faults(launcher):
+				check(false, "scenario %d at %s: %s" % [card.get_index() + 1, size, found])
+	check_equal(launcher._launch.chosen.scenario, 5, "scenario of the last card")
+	launcher.free()
+	root.size = before
+
+
 ## With what it shows after a while.
 func _show_overlay(scene: Node, shown: bool) -> void:
 	var overlay: CanvasLayer = scene.get_node("Placard/%Overlay")
