@@ -14,7 +14,7 @@ constexpr std::size_t max_removals_remembered = 65'536;
 DiscoveryReceiver::DiscoveryReceiver(const DiscoverySettings& settings)
     : settings_(settings), pieces_(settings.pieces_waiting), acknowledgements_(settings.pieces_waiting) {}
 
-bool DiscoveryReceiver::put(const DiscoveryFragment& fragment) {
+bool DiscoveryReceiver::put(const DiscoveryFragment& fragment, std::uint64_t packet) {
     Piece piece;
     piece.kind = Piece::Kind::fragment;
     piece.object = fragment.object;
@@ -23,6 +23,7 @@ bool DiscoveryReceiver::put(const DiscoveryFragment& fragment) {
     piece.total_bytes = fragment.total_bytes;
     piece.offset = fragment.offset;
     piece.size = static_cast<std::uint32_t>(fragment.bytes.size());
+    piece.packet = packet;
     std::memcpy(piece.bytes.data(), fragment.bytes.data(), fragment.bytes.size());
     return pieces_.try_push(piece);
 }
@@ -69,6 +70,7 @@ std::optional<DiscoveryEvent> DiscoveryReceiver::take(const Piece& piece) {
     switch (piece.kind) {
         case Piece::Kind::fragment:
             ++counts_.pieces;
+            newest_packet_ = std::max(newest_packet_, piece.packet);
             take_fragment(piece);
             return std::nullopt;
         case Piece::Kind::removal:
@@ -80,6 +82,7 @@ std::optional<DiscoveryEvent> DiscoveryReceiver::take(const Piece& piece) {
     removed_.clear();
     readings_.clear();
     incomplete_bytes_ = 0;
+    newest_packet_ = 0;
     return DiscoveryEvent{DiscoveryEvent::Kind::restarted, no_object, {}, {}};
 }
 

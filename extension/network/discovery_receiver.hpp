@@ -61,8 +61,8 @@ public:
 
     // --- haptic thread
 
-    // False where there is no room: it will come again.
-    bool put(const DiscoveryFragment& fragment);
+    // False where there is no room: it will come again. `packet`: the sequence of the packet it came in.
+    bool put(const DiscoveryFragment& fragment, std::uint64_t packet = 0);
     bool put(const ObjectRemoval& removal);
 
     // The far side has another epoch. True once it is handed on; call it again until then, before any put().
@@ -77,6 +77,11 @@ public:
 
     // What has happened; nothing when all has been said. The work of a call is bounded by `pieces_waiting`.
     std::optional<DiscoveryEvent> next();
+
+    // The newest packet of this start of the far side with a piece that next() has taken; 0: none. The far
+    // side counts its objects before it describes them: a later hello has all of which a piece has been
+    // taken.
+    std::uint64_t newest_packet() const { return newest_packet_; }
 
     // Whether the object described last under this id could be built. The far side is told.
     void answer(ObjectId object, DiscoveryVerdict verdict);
@@ -94,6 +99,7 @@ private:
         std::uint32_t total_bytes = 0;
         std::uint32_t offset = 0;
         std::uint32_t size = 0;
+        std::uint64_t packet = 0;
         std::array<std::byte, max_fragment_bytes> bytes;
     };
 
@@ -149,6 +155,7 @@ private:
     std::deque<std::shared_ptr<Reading>> readings_;
     std::size_t incomplete_bytes_ = 0;  // of pieces, those being read included
     std::uint64_t pieces_taken_ = 0;
+    std::uint64_t newest_packet_ = 0;
     Run run_;
     DiscoveryReceiverCounts counts_;
 };

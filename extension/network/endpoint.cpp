@@ -213,6 +213,7 @@ void Endpoint::take_hello(const PacketHeader& header, const Hello& hello) {
     }
     hello_sequence_ = header.sequence;
     statistics_.peer_hello = hello;
+    statistics_.peer_hello_packet = header.sequence;
     statistics_.peer = hello.heard_epoch == settings_.epoch ? PeerState::connected : PeerState::one_way;
     if (statistics_.peer == PeerState::connected) {
         end_epoch_before();

@@ -46,9 +46,10 @@ struct TrafficRate {
 
 struct LinkStatistics {
     PeerState peer = PeerState::silent;
-    std::uint64_t peer_epoch = 0;     // 0: none
-    Hello peer_hello;                 // the newest one of that epoch
-    std::uint64_t peer_restarts = 0;  // times that another epoch has followed one
+    std::uint64_t peer_epoch = 0;         // 0: none
+    Hello peer_hello;                     // the newest one of that epoch
+    std::uint64_t peer_hello_packet = 0;  // the sequence of its packet; 0: none
+    std::uint64_t peer_restarts = 0;      // times that another epoch has followed one
     std::uint64_t vanishings = 0;
 
     std::uint64_t packets_sent = 0;

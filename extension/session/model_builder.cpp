@@ -46,6 +46,7 @@ void ModelBuilder::set_run(DiscoveryReceiver::Run run) {
 bool ModelBuilder::update(Nanoseconds now, const LinkStatistics& link) {
     delay_ = 1e-9 * link.clock.mean_delay;
     object_count_ = link.peer_hello.object_count;
+    counted_by_ = link.peer_hello_packet;
     if (link.peer_epoch != 0) {
         follow_gravity(now, link.peer_hello.gravity);
     }
@@ -128,7 +129,12 @@ bool ModelBuilder::all_described(Nanoseconds now, const LinkStatistics& link) co
            static_cast<std::size_t>(bodies) + joints_.count() >= link.peer_hello.object_count;
 }
 
+// As the far side has counted them after it described the last of them: what comes together is described in
+// any order, and its count may be lost or overtaken.
 bool ModelBuilder::all_known() const {
+    if (counted_by_ < port_->discovery.newest_packet()) {
+        return false;
+    }
     const auto bodies = std::ranges::count(objects_, false, &ModelObject::outdated);
     return static_cast<std::size_t>(bodies) + joints_.count() >= object_count_;
 }
@@ -199,16 +205,17 @@ void ModelBuilder::add(Preparing& prepared) {
     made.problem = std::move(added.error);
     port_->discovery.answer(prepared.object,
                             made.body == no_handle ? DiscoveryVerdict::refused : DiscoveryVerdict::known);
+    // What is described anew rests where it rested.
+    made.floats = made.body != no_handle && made.motion == Motion::Dynamic &&
+                  (former.body == no_handle || before->floats);
+    if (made.floats) {
+        session_.set_body_gravity_scale(made.body, 0.0);
+    }
     if (before == objects_.end()) {
         objects_.push_back(std::move(made));
     } else {
         take_out(*before);
         *before = std::move(made);
-    }
-    if (ModelObject& added_one = *find(prepared.object);
-        added_one.body != no_handle && added_one.motion == Motion::Dynamic && !all_known()) {
-        added_one.floats = true;
-        session_.set_body_gravity_scale(added_one.body, 0.0);
     }
     bind(prepared.object, find(prepared.object)->body);
 }

@@ -29,7 +29,7 @@ struct ModelObject {
     bool outdated = false;           // of an earlier start of the far side, which has not described it yet
     Motion motion = Motion::Static;  // as it was described
     double gravity_scale = 1.0;      // likewise
-    bool floats = false;             // until all is described that it may rest on
+    bool floats = false;             // until all is known that it may rest on
 };
 
 class ModelBuilder {
@@ -114,6 +114,7 @@ private:
     Nanoseconds gravity_at_ = 0;
     bool gravity_known_ = false;
     std::size_t object_count_ = 0;  // that the far side says it has
+    std::uint64_t counted_by_ = 0;  // the packet in which it said so
     Nanoseconds news_at_ = 0;       // when something was described last
     double delay_ = 0.0;            // there and back (unit: seconds)
     Pose frame_;

@@ -189,7 +189,7 @@ void OperatorSide::receive(SessionLoop& loop, Nanoseconds now) {
             take(*known);
         } else if (const auto* const piece = std::get_if<DiscoveryFragment>(message)) {
             if (!restart_waits_) {
-                discovery.put(*piece);
+                discovery.put(*piece, packet->header.sequence);
             }
         } else if (const auto* const removal = std::get_if<ObjectRemoval>(message)) {
             if (!restart_waits_) {

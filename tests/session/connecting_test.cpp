@@ -77,5 +77,69 @@ TEST(Connecting, WhatComesLaterRestsOnWhatComesWithIt) {
     EXPECT_LE(fall_while_connecting(rig, bricks, 4.0), 1e-3);
 }
 
+// A brick and its table come together while the two are connected, the brick first. That there is more to
+// come is said in a packet of its own, which may be lost or overtaken.
+TEST(Connecting, NothingFallsWhereWordOfMoreToComeIsLost) {
+    for (std::uint64_t network = 1; network <= 40; ++network) {
+        LinkConditions conditions;
+        conditions.delay = 25 * ms;
+        conditions.jitter = 10 * ms;
+        conditions.loss = 0.2;
+        ModelRig rig(conditions, {}, network);
+        rig.far->add("Ground", body(BoxShape{{1.0, 0.1, 1.0}}, {0.0, -5.0, 0.0}, Motion::Static));
+        rig.run(1000 * ms);
+        const std::vector<SessionHandle> bricks = pile(rig, 1);
+        rig.far->add("Table", body(BoxShape{{1.0, 0.1, 1.0}}, {0.0, -0.1, 0.0}, Motion::Static));
+        EXPECT_LE(fall_while_connecting(rig, bricks, 2.0), 1e-3) << network;
+    }
+}
+
+// The owner reads statistics, and the loop goes on before it takes what has been described by then.
+TEST(Connecting, NothingFallsWhereTheOwnerReadsStatisticsEarly) {
+    ModelRig rig;
+    rig.near->reads_early = true;
+    rig.far->add("Ground", body(BoxShape{{1.0, 0.1, 1.0}}, {0.0, -5.0, 0.0}, Motion::Static));
+    rig.run(1000 * ms);
+    const std::vector<SessionHandle> bricks = pile(rig, 12);
+    rig.far->add("Table", body(BoxShape{{1.0, 0.1, 1.0}}, {0.0, -0.1, 0.0}, Motion::Static));
+    EXPECT_LE(fall_while_connecting(rig, bricks, 2.0), 1e-4);
+}
+
+// What is let fall while the two are connected falls in the model as it does at the far side, one way later.
+TEST(Connecting, WhatComesFallingFallsAsThere) {
+    constexpr int one_way = 25;
+    LinkConditions conditions;
+    conditions.delay = one_way * ms;
+    ModelRig rig(conditions);
+    rig.far->add("Ground", body(BoxShape{{1.0, 0.1, 1.0}}, {0.0, -2.0, 0.0}, Motion::Static));
+    rig.run(1000 * ms);
+    const SessionHandle falls = rig.far->add("Box", brick({0.0, 1.0, 0.0}));
+    std::vector<double> model;
+    double most = 0.0;
+    for (int i = 0; i < 600; ++i) {
+        rig.run(ms);
+        model.push_back(rig.near->pose("Box").position.y);
+        const SessionSnapshot& there = rig.far->session.snapshot();
+        const BodyState* const truth = state_of(there.bodies, there.body_count, falls);
+        if (const int then = i - one_way; then >= 250 && truth) {
+            most = std::max(most, std::abs(truth->pose.position.y - model[static_cast<std::size_t>(then)]));
+        }
+    }
+    EXPECT_LE(most, 0.01);
+    EXPECT_LT(model.back(), 0.0);
+}
+
+// What is described anew while a hand holds it keeps its weight.
+TEST(Connecting, WhatIsDescribedAnewKeepsItsWeight) {
+    ModelRig rig;
+    const SessionHandle box = rig.far->add("Box", brick({0.0, 1.0, 0.0}));
+    rig.far->add("Table", body(BoxShape{{1.0, 0.1, 1.0}}, {0.0, -0.1, 0.0}, Motion::Static));
+    rig.run(1000 * ms);
+    rig.near->session.set_body_velocity(rig.near->find("Box")->body, {}, {});
+    EXPECT_EQ(rig.far->teller.tell(box, "Box", brick({0.0, 0.02, 0.0})), "");
+    rig.run(5 * ms);
+    EXPECT_FALSE(rig.near->find("Box")->floats);
+}
+
 }  // namespace
 }  // namespace tactus::connecting_test

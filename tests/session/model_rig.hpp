@@ -88,10 +88,15 @@ struct Operator {
     }
 
     void tick(Nanoseconds now) {
+        if (reads_early) {
+            port->statistics.refresh();
+        }
         session.tick(now);
         session.collect();
         session.refresh();
-        port->statistics.refresh();
+        if (!reads_early) {
+            port->statistics.refresh();
+        }
         builder.update(now, port->statistics.front().link);
     }
 
@@ -113,6 +118,7 @@ struct Operator {
     std::shared_ptr<TeleopPort> port = std::make_shared<TeleopPort>();
     Session session{small_session()};
     ModelBuilder builder{session, port};
+    bool reads_early = false;  // statistics, before the tick
 };
 
 struct ModelRig {
