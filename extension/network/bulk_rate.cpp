@@ -13,7 +13,8 @@ constexpr double burst = 0.004;  // of the rate that may be saved up (unit: seco
 
 }  // namespace
 
-void BulkRate::adapt(Endpoint& link, Nanoseconds now, bool wanted) {
+void BulkRate::adapt(Endpoint& link, Nanoseconds now, bool wanted, double most) {
+    rate_ = std::clamp(rate_, min_rate, std::max(min_rate, most));
     const double seconds = ticked_ ? to_seconds(now - last_) : 0.0;
     last_ = now;
     ticked_ = true;

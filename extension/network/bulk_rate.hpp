@@ -17,8 +17,9 @@ public:
     // Bytes a second: what the narrowest way has room for, where it begins, and the most.
     static constexpr double min_rate = 5e3, first_rate = 16e3, max_rate = 2e6;
 
-    // Once a tick. `wanted`: there is something to be sent.
-    void adapt(Endpoint& link, Nanoseconds now, bool wanted);
+    // Once a tick. `wanted`: there is something to be sent; `most`: the rate is no higher, but min_rate at
+    // least (unit: bytes per second).
+    void adapt(Endpoint& link, Nanoseconds now, bool wanted, double most = max_rate);
 
     bool may_send() const { return credit_ > 0.0; }
     void sent(std::size_t bytes) { credit_ -= static_cast<double>(bytes); }

@@ -30,7 +30,8 @@ void Pace::adapt(Endpoint& link, Nanoseconds now) {
     const bool congested = queues_ || lossy;
     congested_at_ = congested ? now : congested_at_;
     // What more has filled empties only while less is sent than before.
-    const std::uint32_t less = tried_more_ && queues_ ? 4 : 2;
+    // A small step is undone by doubling.
+    const std::uint32_t less = tried_more_ && queues_ && settings_.tries == 2 ? 4 : 2;
     if (tried_more_ && (congested || now - changed_at_ >= shows_after)) {
         tried_more_ = false;
         patience_ = congested ? std::min(2 * patience_, max_double_after) : double_after;
@@ -41,7 +42,7 @@ void Pace::adapt(Endpoint& link, Nanoseconds now) {
         changed_at_ = now;
     } else if (!congested && stride_ > 1 && now - std::max(congested_at_, changed_at_) >= patience_) {
         lost_before_ = 0.0;
-        stride_ /= 2;
+        stride_ -= std::max(1u, stride_ / settings_.tries);
         changed_at_ = now;
         tried_more_ = true;
     }

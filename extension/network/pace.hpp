@@ -3,7 +3,7 @@
 // Halved where what is on its way queues up and goes on doing so, or where much is lost and that makes it
 // less: of losses that stay as they are who sends is not the cause, and more packets are what helps. Doubled
 // again when neither has been so for two seconds, or longer where that was too much the last time; what then
-// queues up is halved twice.
+// queues up is halved twice. With `tries` above 2 the way back is in smaller steps, so that less queues up.
 #pragma once
 
 #include "network/endpoint.hpp"
@@ -15,6 +15,7 @@ struct PaceSettings {
     // little: who cannot say later what he does not say now leaves them out of account (1).
     double much_lost = 1.0;
     std::uint32_t max_stride = 8;  // a power of two
+    std::uint32_t tries = 2;       // one part in so many of the stride is taken back at a time, >= 2
 };
 
 class Pace {

@@ -53,7 +53,9 @@ void BodyTelling::describe(Channel& channel, Nanoseconds now) {
     link.set_world(counts().waiting + counts().known + counts().refused + counts().no_room,
                    direction_to_local(settings.frame, settings.gravity));
     const bool heard = link.hears_peer();
-    bulk_.adapt(link, now, heard && discovery_.has_more());
+    // States keep to the other half while there is anything to describe.
+    const double most = settings.body_rate > 0.0 ? settings.body_rate / 16.0 : BulkRate::max_rate;
+    bulk_.adapt(link, now, heard && discovery_.has_more(), most);
     Message message;
     for (int i = 0; i < max_a_tick && heard && bulk_.may_send() && discovery_.next(now, message); ++i) {
         const std::uint64_t before = link.statistics().bytes_sent;

@@ -22,8 +22,10 @@ public:
 
     // Last things in a tick. `newest`: the newest sample of the operator that has been applied.
     void tell_states(SessionLoop& loop, Channel& channel, SampleSequence newest, Nanoseconds now) {
-        states_.tell(loop, channel, newest, now, yields());
+        const double rate = channel.settings().body_rate;
+        states_.tell(loop, channel, newest, now, yields(), discovery_.has_more() ? 0.5 * rate : rate);
     }
+    const StateLoad& load() const { return states_.load(); }
     bool has_told_states() const { return states_.has_said(); }
     // `touch`: what has been learnt by touch, or null.
     void tell_estimates(SessionLoop& loop, Channel& channel, const TouchLearner* touch, Nanoseconds now) {

@@ -302,7 +302,7 @@ inline constexpr int members<DeadbandSettings> = 7;
 template <>
 inline constexpr int members<ClockSkew> = 3;
 template <>
-inline constexpr int members<TeleopSettings> = 26;
+inline constexpr int members<TeleopSettings> = 27;
 template <>
 inline constexpr int members<EndpointSettings> = 8;
 template <>

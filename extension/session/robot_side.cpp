@@ -172,6 +172,7 @@ void RobotSide::report(SessionLoop& loop, Nanoseconds now) {
         telling_.tell_estimates(loop, channel_, &touch_, now);
         telling_.describe(channel_, now);
         statistics_.discovery = telling_.counts();
+        statistics_.load = telling_.load();
     }
     for (std::size_t i = 0; i < max_proxies; ++i) {
         Pointer& pointer = pointers_[i];

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
 
 #include "core/teleop/deadband.hpp"
 #include "core/teleop/derivation.hpp"
@@ -30,10 +32,14 @@ constexpr double lost_if_unknown = 0.5;
 constexpr Nanoseconds healed_after = 4 * nanoseconds_per_second;
 constexpr std::size_t max_looked_at = 1024;  // in a turn
 
+constexpr double hand_speed = 1.0;  // of one that hurries (unit: meters per second)
+
 }  // namespace
 
 StateTeller::StateTeller(std::size_t max_bodies) : told_(max_bodies) {
     due_.reserve(max_bodies);
+    urgency_.resize(max_bodies);
+    hands_.reserve(max_proxies + max_tools);
 }
 
 void StateTeller::restart() {
@@ -70,7 +76,7 @@ void StateTeller::begin_anew(Told& told) const {
 }
 
 void StateTeller::tell(SessionLoop& loop, Channel& channel, SampleSequence newest, Nanoseconds now,
-                       bool others_yield) {
+                       bool others_yield, double rate) {
     ++tick_;
     has_said_ = false;
     seconds_ = loop.seconds();
@@ -84,6 +90,11 @@ void StateTeller::tell(SessionLoop& loop, Channel& channel, SampleSequence newes
     if (said_ >= due_.size() && tick_ % every == 0) {
         round_ = every;
         begin_round(loop, channel, now);
+        note_load(loop);
+        if (rate > 0.0) {
+            budget_.earn(std::max(rate, least_body_rate), static_cast<double>(round_) * seconds_);
+            keep_most_urgent(loop, budget_.room());
+        }
     }
     constexpr std::size_t room = ObjectStates::max_count;
     const std::uint64_t packets = (due_.size() + room - 1) / room;
@@ -130,6 +141,57 @@ void StateTeller::begin_round(SessionLoop& loop, const Channel& channel, Nanosec
         next_turn_ = tick_ + std::max(1u, settings.refresh_every);
         take_slow_turn(loop);
     }
+}
+
+void StateTeller::note_load(const SessionLoop& loop) {
+    const double round = static_cast<double>(round_) * seconds_;
+    load_.wanted = static_cast<double>(due_.size()) * budget_.bits_a_state() / round;
+    std::uint64_t oldest = tick_;
+    for (const SessionHandle body : due_) {
+        const Told& told = told_[body];
+        if (loop.body(body)->motion != Motion::Static && told.tick != 0) {
+            oldest = std::min(oldest, told.tick);
+        }
+    }
+    load_.oldest = static_cast<double>(tick_ - oldest) * seconds_;
+}
+
+void StateTeller::keep_most_urgent(SessionLoop& loop, std::size_t room) {
+    if (due_.size() <= room) {
+        return;
+    }
+    hands_.clear();
+    for (std::size_t i = 0; i < max_proxies; ++i) {
+        if (const SessionLoop::ProxySlot& slot = loop.proxy(i); slot.present()) {
+            hands_.push_back(slot.state.position);
+        }
+    }
+    for (std::size_t i = 0; i < max_tools; ++i) {
+        if (const ToolSlot* const slot = loop.tool(i); slot != nullptr && slot->use.enabled) {
+            hands_.push_back(slot->state.pose.position);
+        }
+    }
+    const double soonest = static_cast<double>(round_) * seconds_;
+    for (const SessionHandle body : due_) {
+        const double age = static_cast<double>(tick_ - told_[body].tick) * seconds_;
+        urgency_[body] = age / std::max(soonest, time_to_touch(loop, body));
+    }
+    const auto kept = due_.begin() + static_cast<std::ptrdiff_t>(room);
+    std::nth_element(due_.begin(), kept, due_.end(), [this](SessionHandle a, SessionHandle b) {
+        return urgency_[a] != urgency_[b] ? urgency_[a] > urgency_[b] : a < b;
+    });
+    due_.erase(kept, due_.end());
+}
+
+// Before a hand may be there (unit: seconds), >= 0; where there is none, as if it were a meter away.
+double StateTeller::time_to_touch(SessionLoop& loop, SessionHandle body) const {
+    const BodyMotion motion = loop.motion(body);
+    double nearest = hands_.empty() ? 1.0 : std::numeric_limits<double>::infinity();
+    for (const Vec3& hand : hands_) {
+        nearest = std::min(nearest, glm::distance(hand, motion.pose.position));
+    }
+    const double distance = std::max(0.0, nearest - loop.body(body)->shape->reach);
+    return distance / (hand_speed + glm::length(motion.linear_velocity));
 }
 
 void StateTeller::note_where_it_stands(SessionLoop& loop, SessionHandle body) {
@@ -214,9 +276,12 @@ void StateTeller::send(SessionLoop& loop, Channel& channel, SampleSequence newes
                                                said.linear_velocity, said.angular_velocity};
         }
     }
+    const std::uint64_t before = channel.link().statistics().bytes_sent;
     if (message.count == 0 || !channel.try_send(message)) {
         return;
     }
+    const std::uint64_t bytes = channel.link().statistics().bytes_sent - before;
+    budget_.sent(message.count, 8.0 * static_cast<double>(bytes + channel.link().overhead()));
     for (const SessionHandle body : bodies) {
         if (loop.body(body) != nullptr) {
             note_told(loop, channel, body, now);

@@ -9,7 +9,9 @@
 //
 // What is due is gathered once in a round of `states_every` ticks, and its packets are spread over the round.
 // Where the way there queues, rounds are longer (network/pace.hpp).
-// Belongs to whoever ticks.
+//
+// Where the owner has set a rate (TeleopSettings::body_rate) and more is due, a round has the bodies whose
+// last state is oldest, measured by the time in which a hand may arrive there. Belongs to whoever ticks.
 #pragma once
 
 #include <vector>
@@ -17,6 +19,7 @@
 #include "network/pace.hpp"
 #include "session/channel.hpp"
 #include "session/session_loop.hpp"
+#include "session/state_budget.hpp"
 
 namespace tactus {
 
@@ -34,9 +37,12 @@ public:
 
     // Once a tick. `newest`: the newest sample of the operator that has been applied; `others_yield`: what
     // queues on the way there is somebody else's, who sends less.
-    void tell(SessionLoop& loop, Channel& channel, SampleSequence newest, Nanoseconds now, bool others_yield);
+    // `rate`: that all of it keeps to (unit: bits per second); 0: no limit.
+    void tell(SessionLoop& loop, Channel& channel, SampleSequence newest, Nanoseconds now, bool others_yield,
+              double rate);
     // Whether something was said in this tick of a body that moves by itself.
     bool has_said() const { return has_said_; }
+    const StateLoad& load() const { return load_; }
 
 private:
     enum class Known : std::uint8_t { unasked, awaited, built };
@@ -58,6 +64,9 @@ private:
 
     void begin_anew(Told& told) const;
     void begin_round(SessionLoop& loop, const Channel& channel, Nanoseconds now);
+    void note_load(const SessionLoop& loop);
+    void keep_most_urgent(SessionLoop& loop, std::size_t room);
+    double time_to_touch(SessionLoop& loop, SessionHandle body) const;
     void note_where_it_stands(SessionLoop& loop, SessionHandle body);
     void take_slow_turn(const SessionLoop& loop);
     bool has_its_turn(const TeleopSettings& settings, SessionHandle body) const;
@@ -69,10 +78,14 @@ private:
     void note_told(SessionLoop& loop, const Channel& channel, SessionHandle body, Nanoseconds now);
     std::uint64_t ticks(Nanoseconds span) const;
 
-    Pace pace_{PaceSettings{1.0, 32}};
+    Pace pace_{PaceSettings{1.0, 32, 4}};
     std::vector<Told> told_;          // by body
     std::vector<SessionHandle> due_;  // in this round
-    std::size_t said_ = 0;            // of them
+    std::vector<double> urgency_;     // of what is due, by body
+    std::vector<Vec3> hands_;         // in this round
+    StateBudget budget_;
+    StateLoad load_;
+    std::size_t said_ = 0;  // of them
     std::uint64_t round_began_ = 0;
     std::uint64_t round_ = 1;      // ticks of this one
     std::uint64_t next_turn_ = 0;  // the tick of the next slow turn

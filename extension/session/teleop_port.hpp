@@ -61,6 +61,9 @@ struct TeleopSettings {
     Pose frame;            // of this side's world in its scene: what is sent is relative to it, on both sides
     bool leaving = false;  // says bye, once
     std::uint32_t replay_steps = 32;  // ticks of the past that are replayed in one tick, >= 1
+    // Far side: that states and descriptions of bodies keep to, with all headers (unit: bits per second), >=
+    // 0; 0: no limit; see least_body_rate.
+    double body_rate = 0.0;
 };
 
 // As the two sides tell each other.
@@ -75,10 +78,17 @@ struct FeltFigures {
     double hidden = 0.0;  // what is hidden of its force (unit: newtons)
 };
 
+// What a far side has to say of where its bodies are.
+struct StateLoad {
+    double wanted = 0.0;  // that all that is due would take (unit: bits per second)
+    double oldest = 0.0;  // since a body that is due was said last (unit: seconds)
+};
+
 struct TeleopStatistics {
     std::uint64_t sample = 0;  // operator: the newest of its own; far side: the newest applied
     LinkStatistics link;
     DiscoveryCounts discovery;          // far side
+    StateLoad load;                     // likewise
     std::uint64_t unknown_objects = 0;  // states of objects that are not there
     std::uint64_t stale_states = 0;     // older than what is known
     std::uint64_t corrections = 0;      // ticks in which the model was corrected

@@ -154,9 +154,9 @@ void decompose(Aggregate& value, Take&& take) {
     } else if constexpr (count == 20) {
         auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t] = value;
         take(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t);
-    } else if constexpr (count == 26) {
-        auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z] = value;
-        take(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z);
+    } else if constexpr (count == 27) {
+        auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z, aa] = value;
+        take(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z, aa);
     } else {
         static_assert(count < 0, "write a case for so many members");
     }

@@ -410,7 +410,7 @@ WorldLink::Standing WorldLink::standing_of_peer() const {
         return {LinkState::refused, differs};
     }
     std::string text = "connected";
-    for (const std::string& besides : {differs, short_history(), plan_.trace_problem}) {
+    for (const std::string& besides : {differs, short_history(), narrow_states(), plan_.trace_problem}) {
         text += besides.empty() ? "" : "; " + besides;
     }
     return {LinkState::connected, text};
@@ -428,6 +428,22 @@ std::string WorldLink::short_history() const {
         "the teleoperator answers after %.2f s, and the model's history is %.2f s: moving bodies are "
         "corrected by velocity, and only while they are not pressed; set 'history' to %.1f s",
         teleop.round_trip, plan_.history, std::ceil(10.0 * teleop.round_trip + 1.0) / 10.0);
+    return text;
+}
+
+// More is due of its bodies than the bandwidth that the user gives them.
+std::string WorldLink::narrow_states() const {
+    const StateLoad& load = port_->statistics.front().load;
+    const double rate = plan_.teleop.body_rate;
+    if (is_operator() || rate <= 0.0 || load.wanted <= rate) {
+        return "";
+    }
+    char text[200];
+    std::snprintf(
+        text, sizeof(text),
+        "the states of its bodies would take %.1f Mbit/s, and 'body_bandwidth' is %.1f: what is far "
+        "from a hand is sent up to %.2f s late",
+        1e-6 * load.wanted, 1e-6 * rate, load.oldest);
     return text;
 }
 

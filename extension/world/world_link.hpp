@@ -181,6 +181,7 @@ private:
     Standing standing() const;
     Standing standing_of_peer() const;
     std::string short_history() const;
+    std::string narrow_states() const;
 
     LinkPlan plan_;
     bool is_planned_ = true;  // false: nobody wants it any more

@@ -1,6 +1,7 @@
 // What entered a session, recorded and played again, gives the same bits.
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
 
@@ -527,6 +528,21 @@ TEST_F(InputReplayDamaged, WhatIsNoRecordingSaysSo) {
     EXPECT_NE(RecordedInputs::play_bytes("").problem, "");
     EXPECT_NE(RecordedInputs::play_bytes("time_us,force_x\n0,0\n0,0\n0,0\n").problem.find("no recording"),
               std::string::npos);
+}
+
+// Layouts that were: before a side's settings had residuals, before they had a rate, and one that never was.
+TEST_F(InputReplayDamaged, ARecordingOfAnotherVersionSaysSo) {
+    constexpr std::size_t layout_at = 16;
+    const std::string whole = inputs_.bytes();
+    for (const std::uint64_t layout :
+         std::initializer_list<std::uint64_t>{0xf53f916185ce5cd1, 0xdf3197413154d2b7, 0}) {
+        std::string other = whole;
+        std::memcpy(other.data() + layout_at, &layout, sizeof layout);
+        ASSERT_NE(other, whole) << "a layout has to change with what a recording is made of";
+        const InputReplay::Report report = RecordedInputs::play_bytes(other);
+        EXPECT_EQ(report.problem, "another version of Tactus has recorded it: play it with that one");
+        EXPECT_EQ(report.ticks, 0u);
+    }
 }
 
 // Pieces that are sealed as they should be, of what nobody has recorded.
