@@ -33,11 +33,15 @@ void TeleoperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
     for (std::size_t i = 0; i < share_.most(); ++i) {
         if (SessionLoop::ProxySlot& slot = slot_of(loop, i); slot.proxy) {
             play(loop, i, slot);
+        } else {
+            pointers_[i].leave();
         }
     }
     for (std::size_t i = 0; i < share_.most(max_tools); ++i) {
         if (ToolSlot* const slot = tool_of(loop, i)) {
             play(loop, i, *slot);
+        } else {
+            tools_[i].leave();
         }
     }
     draw_back_tools(loop);
@@ -94,6 +98,7 @@ void TeleoperatorSide::forget_operator() {
 
 void TeleoperatorSide::play(SessionLoop& loop, std::size_t index, SessionLoop::ProxySlot& slot) {
     Pointer& pointer = pointers_[index];
+    slot.idle = std::exchange(pointer.is_away, false) || slot.idle;
     pointer.playing = hands_.play(index, pointer.played);
     const bool waits = pointer.playing == Playing::waiting;
     if (!waits) {
@@ -133,10 +138,7 @@ void TeleoperatorSide::let_go(SessionLoop& loop, Pointer& pointer, SessionLoop::
     if (slot.idle) {
         return;
     }
-    if (!std::exchange(pointer.goes, true) && !pointer.is_new) {
-        const Pose proxy{slot.state.position, Quat(1.0, 0.0, 0.0, 0.0)};
-        pointer.kept = kept(loop, slot.state, proxy);
-    }
+    pointer.goes = true;
     slot.hand = pointer.hand;
     slot.hand_velocity = Vec3(0.0);
     draw_back(loop, pointer, slot, PressLimit::Hand::goes);
@@ -196,11 +198,14 @@ void TeleoperatorSide::draw_back(SessionLoop& loop, Pointer& pointer, SessionLoo
     pointer.limit.applied(hand, depth);
 }
 
-// How deep those are that nothing holds back.
+// Where those are that hold something, and how deep those that nothing holds back.
 void TeleoperatorSide::note_pressed(SessionLoop& loop) {
     for (std::size_t i = 0; i < share_.most(); ++i) {
         const SessionLoop::ProxySlot& slot = slot_of(loop, i);
         const ProxyState& state = slot.state;
+        if (slot.proxy && pointers_[i].holds) {
+            pointers_[i].kept = kept(loop, state, Pose{state.position, Quat(1.0, 0.0, 0.0, 0.0)});
+        }
         const auto hand = hands_.leads(i) ? PressLimit::Hand::guessed : PressLimit::Hand::here;
         if (slot.proxy && pointers_[i].holds && !pointers_[i].limit.binds(hand)) {
             pointers_[i].limit.note(state.contact_count > 0 ? glm::distance(slot.hand, state.position) : 0.0);
@@ -208,6 +213,9 @@ void TeleoperatorSide::note_pressed(SessionLoop& loop) {
     }
     for (std::size_t i = 0; i < share_.most(max_tools); ++i) {
         const ToolSlot* const slot = tool_of(loop, i);
+        if (slot && tools_[i].holds) {
+            tools_[i].kept = kept(loop, slot->state, slot->state.pose);
+        }
         if (slot && tools_[i].holds &&
             !tools_[i].limit.binds(PlayedHands::leads(*slot) ? PressLimit::Hand::guessed
                                                              : PressLimit::Hand::here)) {
@@ -327,6 +335,7 @@ void TeleoperatorSide::report(SessionLoop& loop, Nanoseconds now) {
     statistics_.sample = newest_applied_;
     hands_.tell(statistics_);
     statistics_.discovery = telling_.counts();
+    statistics_.load = telling_.load();
     channel_.end_tick(statistics_);
 }
 

@@ -40,6 +40,7 @@ private:
         bool is_new = true;      // this operator's hand has not been there: no place of it is kept
         bool holds = false;      // a hand is there
         bool goes = false;       // it was there, and presses on with less and less
+        bool is_away = false;    // its proxy was taken away since then
         Vec3 hand{0.0};          // where the stand-in has put it (unit: meters)
         FarPassivity passivity;  // traditional
         PressLimit limit;
@@ -47,6 +48,12 @@ private:
         Vec3 had_force{0.0}, had_hand{0.0};  // one tick ago (unit: newtons, meters)
         Vec3 force_sent{0.0};
         Nanoseconds force_sent_at = 0;
+
+        // Its proxy is taken away; one that is added later begins where it was.
+        void leave() {
+            is_away = is_away || holds || goes;
+            holds = goes = false;
+        }
     };
 
     // One that holds a tool: the stand-in is always a spring to it.
@@ -60,6 +67,11 @@ private:
         PressLimit limit;
         KeptPlace kept;
         SaidWrench said;
+
+        void leave() {  // as of a pointer
+            idle = true;
+            holds = goes = false;
+        }
     };
 
     const TeleopSettings& settings() const { return channel_.settings(); }
@@ -87,7 +99,7 @@ private:
     StandInInput stand_in_input(SessionLoop& loop, const Pointer& pointer,
                                 const SessionLoop::ProxySlot& slot) const;
     void play(SessionLoop& loop, std::size_t index, ToolSlot& slot);
-    void let_go(SessionLoop& loop, Tool& tool, ToolSlot& slot) const;
+    void let_go(Tool& tool, ToolSlot& slot) const;
     void draw_back(Tool& tool, ToolSlot& slot, const ToolState& before, PressLimit::Hand hand) const;
     void come_back(SessionLoop& loop, Tool& tool, ToolSlot& slot) const;
     Terms own_terms(SessionLoop& loop) const;

@@ -18,7 +18,7 @@ void TeleoperatorSide::play(SessionLoop& loop, std::size_t index, ToolSlot& slot
     const bool another_goes = tool.is_new && !tool.idle;
     if (waits || another_goes || !tool.played.connected || !is_given ||
         !channel_.works_together(first_tool + index)) {
-        let_go(loop, tool, slot);
+        let_go(tool, slot);
         return;
     }
     const Pose& frame = settings().frame;
@@ -39,11 +39,9 @@ void TeleoperatorSide::play(SessionLoop& loop, std::size_t index, ToolSlot& slot
 }
 
 // See let_go() for a pointer.
-void TeleoperatorSide::let_go(SessionLoop& loop, Tool& tool, ToolSlot& slot) const {
+void TeleoperatorSide::let_go(Tool& tool, ToolSlot& slot) const {
     tool.holds = false;
-    if (!tool.idle && !std::exchange(tool.goes, true) && !tool.is_new) {
-        tool.kept = kept(loop, slot.state, slot.state.pose);
-    }
+    tool.goes = true;
     if (tool.idle || !slot.hand.holds || tool.limit.is_gone()) {
         tool.idle = true;
         tool.goes = slot.hand.holds = false;

@@ -224,6 +224,59 @@ TEST(FarPresence, AToolThatIsFreedLeavesGently) {
     EXPECT_LE(leaves.largest_step, smooth_step);
 }
 
+// The far side's own pointer is taken away under the hand, and another one is added: it begins where the
+// first was, not inside what that pressed.
+TEST(FarPresence, AFarPointerThatIsAddedAgainComesBackFromWhereItWas) {
+    for (const TeleopSettings& settings : {TeleopSettings{}, traditional(), with_deadband()}) {
+        SCOPED_TRACE(settings.traditional ? "traditional" : settings.deadband.enabled ? "deadband" : "model");
+        Pressing places(settings);
+        places.far.session.remove_proxy(0);
+        places.ticks(300);
+        EXPECT_EQ(places.far.session.add_proxy(places.pointer(true)).error, "");
+        places.tick();
+        Watch watch(places);
+        const Watched back = watch.ticks(2000);
+        EXPECT_LE(back.largest_step, smooth_step);
+        EXPECT_NEAR(watch.force(), 5.0, 0.1);
+        EXPECT_GT(places.far.session.snapshot().proxies[0].position.y, 0.0);
+    }
+}
+
+// It is added again elsewhere than a hand that has left meanwhile is.
+TEST(FarPresence, AFarPointerThatIsAddedLaterIsWhereTheHandIs) {
+    Pressing places({});
+    places.far.session.remove_proxy(0);
+    places.ticks(300);
+    places.draw({0.2, 0.1, 0.0}, 300);
+    EXPECT_EQ(places.far.session.add_proxy(places.pointer(true)).error, "");
+    places.ticks(1000);
+    EXPECT_LT(glm::distance(places.far.session.snapshot().proxies[0].position, Vec3(0.2, 0.1, 0.0)), 1e-3);
+}
+
+TEST(FarPresence, AFarToolThatIsAddedAgainComesBackFromWhereItWas) {
+    LinkedTools places(0.05);
+    places.add(floor_of(0.5));
+    places.settle();
+    put(places.hand(), {0.0, 0.1, 0.0}, Quat(1.0, 0.0, 0.0, 0.0));
+    places.ticks(300);
+    for (int i = 0; i < 300; ++i) {
+        put(places.hand(), {0.0, 0.1 - 1e-3 * 0.33 * i, 0.0}, Quat(1.0, 0.0, 0.0, 0.0));
+        places.tick();
+    }
+    places.ticks(500);
+    Watch watch(places, true);
+    const double before = watch.force();
+    ASSERT_GT(before, 1.0);
+    const double height = places.far.session.snapshot().tools[0].pose.position.y;
+    places.far.session.remove_tool(0);
+    places.ticks(300);
+    EXPECT_EQ(places.far.session.add_tool(bar(), held_by(0)).error, "");
+    places.ticks(2000);
+    Watch after(places, true);
+    EXPECT_NEAR(after.force(), before, 0.05 * before);
+    EXPECT_NEAR(places.far.session.snapshot().tools[0].pose.position.y, height, 1e-3);
+}
+
 // The model's hand begins inside a body and feels nothing: nor does the far one press.
 TEST(FarPresence, WhoBeginsInsideABodyPressesNothingThere) {
     Pressing places({});
