@@ -233,9 +233,9 @@ void GodotBody::push(const Vec3& impulse, const Vec3& turn) {
     server->body_apply_torque_impulse(node_.get_rid(), to_godot(turn));
 }
 
-void GodotBody::hold_still() {
+void GodotBody::hold_still(bool held) {
     if (rigid_ != nullptr) {
-        tactus::hold_still(*rigid_, true);
+        tactus::hold_still(*rigid_, held);
     }
 }
 

@@ -43,7 +43,7 @@ public:
 
     BodyMotion true_motion() const override;
     void push(const Vec3& impulse, const Vec3& turn) override;
-    void hold_still() override;
+    void hold_still(bool held) override;
     void listen() override;
     void tell_of_moves(bool tell) override;
     void let_go() override;

@@ -164,6 +164,7 @@ void HapticWorld::start() {
     settings.session.full_rate_bodies = !settings.links.empty() ? 0 : settings.session.full_rate_bodies;
     settings.inputs = record_inputs(settings.session);
     change_ = Change::none;
+    place_.begin(get_global_transform());
     run_ = std::make_shared<WorldRun>(*this, std::move(settings));
     Roll<HapticWorld>::enter(this);
     run_->synchronise(shortest_way);
@@ -247,8 +248,17 @@ void HapticWorld::let_go_of_former() {
     }
 }
 
+// What crosses a link is relative to the worlds of both sides: one that has been moved begins anew where it
+// is.
+void HapticWorld::look_at_place() {
+    if (run_ != nullptr && run_->is_linked() && place_.is_elsewhere(get_global_transform())) {
+        world_changed();
+    }
+}
+
 // The old run goes when the new one has built what it needs: trees and meshes of both are built once.
 void HapticWorld::catch_up() {
+    look_at_place();
     const Change what = std::exchange(change_, Change::none);
     if (run_ == nullptr || what == Change::none) {
         return;
@@ -309,7 +319,7 @@ void HapticWorld::_notification(int what) {
 void HapticWorld::node_added(const Variant& added) {
     auto* const node = object_in<Node>(added);
     if (node != nullptr && run_ != nullptr) {
-        run_->scene_changed(*node);
+        run_->node_added(*node);
     }
 }
 

@@ -8,6 +8,7 @@
 #include <godot_cpp/variant/typed_array.hpp>
 #include <memory>
 #include <string_view>
+#include <utility>
 
 #include "core/haptics/touch_material.hpp"
 #include "core/teleop/seen_pose.hpp"
@@ -26,6 +27,22 @@ class HapticTimingStatistics;
 class InputRecording;
 class WorldRun;
 struct BodyPush;
+
+// Where a world began, and whether it has been moved since: a jump shows at once, a motion when it has ended.
+class PlaceWatch {
+public:
+    void begin(const godot::Transform3D& place) { began_ = place; }
+    // Once a frame.
+    bool is_elsewhere(const godot::Transform3D& place) {
+        const bool moves = std::exchange(seen_, place) != place;
+        const bool went_on = std::exchange(moves_, moves) && moves;
+        return place != began_ && !went_on;
+    }
+
+private:
+    godot::Transform3D began_, seen_;
+    bool moves_ = false;
+};
 
 // Its subtree is what can be touched. While the scene plays, it runs the haptic loop with a physics world of
 // its own, and moves the RigidBody3D nodes of its subtree.
@@ -116,6 +133,7 @@ private:
     void world_changed() { change_ = Change::world; }
     void loop_changed() { change_ = std::max(change_, Change::loop); }
     void gravity_changed();
+    void look_at_place();
     void catch_up();
     void let_go_of_former();
     std::unique_ptr<InputRecording> record_inputs(const SessionSettings& settings);
@@ -147,6 +165,7 @@ private:
     std::shared_ptr<WorldRun> run_;
     std::shared_ptr<WorldRun> former_;  // before it started anew, until its trees are in the new one
     Change change_ = Change::none;
+    PlaceWatch place_;
     double since_report_ = 0.0;  // (unit: seconds)
     godot::String loop_error_;   // why the haptic thread could not start
     ToldState<State> told_;

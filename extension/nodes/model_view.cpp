@@ -1,7 +1,6 @@
 #include "nodes/model_view.hpp"
 
 #include <godot_cpp/classes/mesh_instance3d.hpp>
-#include <godot_cpp/classes/rigid_body3d.hpp>
 
 #include "nodes/body_reading.hpp"
 #include "nodes/conversions.hpp"
@@ -45,22 +44,30 @@ void hide(const ModelRoll::Shown& shown) {
 
 }  // namespace
 
-void ModelView::scene_changed(const Node& node) {
-    const bool is_body = is_solid_body(&node);
-    is_scene_new_ |= is_body;
-    shows_other_scene_ |= is_body || roll_.body_of(node.get_instance_id()) != no_handle;
-}
-
-void ModelView::hold_still() {
-    if (!std::exchange(is_scene_new_, false)) {
-        return;
-    }
+ModelView::ModelView(HapticWorld& world) : world_(world) {
     for_each_below(world_, [this](const Node& node) {
         if (const auto* body = Object::cast_to<RigidBody3D>(&node)) {
-            tactus::hold_still(*body, true);
-            held_.insert(body->get_instance_id());
+            hold_still(*body, true);
         }
     });
+}
+
+void ModelView::scene_changed(Node& node, bool comes) {
+    const std::uint64_t id = node.get_instance_id();
+    shows_other_scene_ |= is_solid_body(&node) || roll_.body_of(id) != no_handle;
+    auto* body = Object::cast_to<RigidBody3D>(&node);
+    if (body != nullptr && (comes ? world_.is_ancestor_of(body) : held_.contains(id))) {
+        hold_still(*body, comes);
+    }
+}
+
+void ModelView::hold_still(const RigidBody3D& body, bool held) {
+    tactus::hold_still(body, held);
+    if (held) {
+        held_.insert(body.get_instance_id());
+    } else {
+        held_.erase(body.get_instance_id());
+    }
 }
 
 // A name that leads out of the world names nothing.
@@ -148,12 +155,11 @@ void ModelView::show(const BodyState& state, std::uint64_t, Session&) {
 
 void ModelView::release(Session&) {
     roll_.hide_all(hide);
-    for (const std::uint64_t id : held_) {
+    for (const std::uint64_t id : std::exchange(held_, {})) {
         if (const auto* body = node_of_id<RigidBody3D>(id)) {
             tactus::hold_still(*body, false);
         }
     }
-    held_.clear();
 }
 
 }  // namespace tactus

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <godot_cpp/classes/collision_object3d.hpp>
+#include <godot_cpp/classes/rigid_body3d.hpp>
 #include <string>
 #include <unordered_set>
 #include <utility>
@@ -17,11 +18,10 @@ class HapticWorld;
 
 class ModelView final : public SceneView {
 public:
-    explicit ModelView(HapticWorld& world) : world_(world) {}
+    // The rigid bodies of this scene stay where they are until the far side says where they should be.
+    explicit ModelView(HapticWorld& world);
 
-    // The bodies of this scene. They stay where they are until the far side says where they should be.
-    void hold_still();
-    void scene_changed(const godot::Node& node) override;
+    void scene_changed(godot::Node& node, bool comes) override;
     SessionHandle body_of(std::uint64_t node) const override { return roll_.body_of(node); }
     std::uint64_t node_of(SessionHandle body) const override { return roll_.node_of(body); }
     std::size_t body_count() const override { return roll_.size(); }
@@ -41,13 +41,13 @@ public:
     std::vector<ModelNews> update(const std::vector<ModelObject>& objects);
 
 private:
+    void hold_still(const godot::RigidBody3D& body, bool held);
     ModelRoll::Shown show(const std::string& name, const ModelRoll::Form& form) const;
     bool is_shown(const std::string& name, const ModelRoll::Shown& shown) const;
     godot::CollisionObject3D* scene_body(const std::string& name) const;
     godot::Node3D* make_picture(const std::string& name, const ModelRoll::Form& form) const;
 
     HapticWorld& world_;
-    bool is_scene_new_ = true;
     bool shows_other_scene_ = false;
     std::unordered_set<std::uint64_t> held_;  // rigid bodies of the scene
     ModelRoll roll_;

@@ -13,7 +13,7 @@ namespace tactus {
 using namespace godot;
 
 // A shape or mesh that comes or goes changes the body above it.
-void SceneBodies::scene_changed(const Node& node) {
+void SceneBodies::scene_changed(Node& node, bool comes) {
     const bool is_mirrored = is_solid_body(&node) || Object::cast_to<Joint3D>(&node) != nullptr;
     tree_changed_ |= is_mirrored;
     if (!is_mirrored) {
@@ -21,6 +21,20 @@ void SceneBodies::scene_changed(const Node& node) {
     }
     if (const Node* parent = node.get_parent(); parent != nullptr && is_solid_body(parent)) {
         mirrors_.news()->changed.push_back(parent->get_instance_id());
+    }
+    if (auto* rigid = Object::cast_to<RigidBody3D>(&node); rigid != nullptr && !engine_moves_) {
+        hold_until_found(*rigid, comes);
+    }
+}
+
+// The engine's own physics may step several times before the next synchronise(): the body would begin in the
+// session with a place and a velocity that nothing there has given it.
+void SceneBodies::hold_until_found(RigidBody3D& body, bool comes) {
+    if (comes && scene_.world.is_ancestor_of(&body)) {
+        hold_still(body, true);
+        arriving_.insert(body.get_instance_id());
+    } else if (!comes && arriving_.erase(body.get_instance_id()) > 0) {
+        hold_still(body, false);
     }
 }
 
@@ -61,6 +75,7 @@ void SceneBodies::find(Session& session) {
         return std::make_unique<GodotJoint>(*node_of_id<Joint3D>(id), scene_.complaints);
     };
     mirrors_.match(bodies, make_body, joints, make_joint, session);
+    arriving_.clear();
 }
 
 void SceneBodies::synchronise(MirrorContext context) {
@@ -76,6 +91,15 @@ void SceneBodies::synchronise(MirrorContext context) {
     }
     context.mesh_changes = part_changes();
     mirrors_.synchronise(context);
+}
+
+void SceneBodies::release(Session& session) {
+    for (const std::uint64_t id : std::exchange(arriving_, {})) {
+        if (const auto* body = node_of_id<RigidBody3D>(id)) {
+            hold_still(*body, false);
+        }
+    }
+    mirrors_.release(session);
 }
 
 void SceneBodies::begin_to_show() {

@@ -4,6 +4,8 @@
 
 #include <godot_cpp/classes/collision_object3d.hpp>
 
+#include <unordered_set>
+
 #include "nodes/godot_body.hpp"
 #include "nodes/scene_view.hpp"
 
@@ -11,11 +13,12 @@ namespace tactus {
 
 class SceneBodies final : public SceneView {
 public:
-    // `in_turn`: see BodyMirrors.
-    SceneBodies(const godot::Node3D& world, std::size_t max_bodies, bool in_turn, Complaints& complaints)
-        : scene_{world, complaints}, mirrors_(max_bodies, in_turn) {}
+    // `in_turn`: see BodyMirrors; `engine_moves`: see MirrorContext.
+    SceneBodies(const godot::Node3D& world, std::size_t max_bodies, bool in_turn, bool engine_moves,
+                Complaints& complaints)
+        : scene_{world, complaints}, mirrors_(max_bodies, in_turn), engine_moves_(engine_moves) {}
 
-    void scene_changed(const godot::Node& node) override;
+    void scene_changed(godot::Node& node, bool comes) override;
     SessionHandle body_of(std::uint64_t node) const override { return mirrors_.body_of(node); }
     std::uint64_t node_of(SessionHandle body) const override { return mirrors_.node_of(body); }
     std::size_t body_count() const override { return mirrors_.in_session(); }
@@ -23,7 +26,7 @@ public:
     void show(const BodyState& state, std::uint64_t tick, Session& session) override {
         mirrors_.show(state, tick, session);
     }
-    void release(Session& session) override { mirrors_.release(session); }
+    void release(Session& session) override;
 
     // Brings the session up to date with all that stands below the world.
     void synchronise(MirrorContext context);
@@ -36,11 +39,14 @@ public:
 
 private:
     void find(Session& session);
+    void hold_until_found(godot::RigidBody3D& body, bool comes);
     void say_passed_over(const godot::Node& node);
 
     GodotScene scene_;
     BodyMirrors mirrors_;
-    std::vector<std::uint64_t> others_;  // nodes that have come and are none of ours
+    bool engine_moves_;
+    std::unordered_set<std::uint64_t> arriving_;  // rigid bodies that no mirror has yet, held still
+    std::vector<std::uint64_t> others_;           // nodes that have come and are none of ours
     bool is_first_look_ = true;
     bool tree_changed_ = true;
 };

@@ -13,8 +13,8 @@ class SceneView {
 public:
     virtual ~SceneView() = default;
 
-    // A node has come or is about to go.
-    virtual void scene_changed(const godot::Node& node) = 0;
+    // A node has come, or is about to go (`comes` is false).
+    virtual void scene_changed(godot::Node& node, bool comes) = 0;
     virtual SessionHandle body_of(std::uint64_t node) const = 0;  // no_handle: the node is none of its bodies
     virtual std::uint64_t node_of(SessionHandle body) const = 0;  // that shows the body; 0: none
     virtual std::size_t body_count() const = 0;

@@ -58,7 +58,7 @@ WorldRun::WorldRun(HapticWorld& world, RunSettings settings)
       running_(settings.session, settings.real_time, pose_of(world.get_global_transform()),
                plans_of(settings.links), std::move(settings.inputs)),
       engine_moves_(settings.engine_moves),
-      bodies_(world, settings.session.max_bodies, settings.real_time, complaints_) {
+      bodies_(world, settings.session.max_bodies, settings.real_time, settings.engine_moves, complaints_) {
     for (const MMTLink* link : settings.links) {
         link_nodes_.push_back(link->get_instance_id());
     }
@@ -101,9 +101,7 @@ void WorldRun::synchronise(double seconds) {
     const Busy busy(is_busy_);
     running_.collect();  // trees that the loop has let go of can be refitted
     synchronise_links();
-    if (model_ != nullptr) {
-        model_->hold_still();
-    } else {
+    if (model_ == nullptr) {
         synchronise_bodies(seconds);
     }
     hands_->synchronise(session(), complaints_, !loop().is_real_time());
@@ -261,13 +259,13 @@ void WorldRun::give_ticks(const NodeType& node, const std::shared_ptr<TickRing>&
 
 // --- what leaves
 
-void WorldRun::node_removed(const Node& node) {
+void WorldRun::node_removed(Node& node) {
     const std::uint64_t id = node.get_instance_id();
     hands_->end_contacts(id);
     hands_->forget(id, session());
     running_.listeners().end(session(), id);
     std::ranges::replace(link_nodes_, id, std::uint64_t{0});
-    view().scene_changed(node);
+    view().scene_changed(node, false);
 }
 
 void WorldRun::finish(HapticRecorder& recorder) {

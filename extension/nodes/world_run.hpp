@@ -63,8 +63,8 @@ public:
     void ask_effects();
 
     // A node has come; one is about to go.
-    void scene_changed(const godot::Node& node) { view().scene_changed(node); }
-    void node_removed(const godot::Node& node);
+    void node_added(godot::Node& node) { view().scene_changed(node, true); }
+    void node_removed(godot::Node& node);
     // The recorder is about to close its files: gives it what is there, then lets it go.
     void finish(HapticRecorder& recorder);
 
@@ -73,6 +73,7 @@ public:
         return node != nullptr ? view().body_of(node->get_instance_id()) : no_handle;
     }
     bool engine_moves() const { return engine_moves_; }
+    bool is_linked() const { return !link_nodes_.empty(); }
     BodyState state_of(const godot::Node* node) { return running_.state_of(body_of(node)); }
 
     const SceneBodies& bodies() const { return bodies_; }

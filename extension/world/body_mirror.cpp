@@ -48,7 +48,7 @@ BodyPlace BodyMirror::remembered() const {
 // build is handed over where everybody's is, or the order of bodies, which physics computes in, would depend
 // on how fast they are.
 void BodyMirror::plan(const MirrorContext& context) {
-    tried_ = true;
+    const bool is_first = !std::exchange(tried_, true);
     place_problem_.clear();
     was_nowhere_ = !problem_of_place(body_->frame()).empty();
     key_ = body_->shape_key();
@@ -59,8 +59,8 @@ void BodyMirror::plan(const MirrorContext& context) {
         remember();
     }
     BodyForm form = body_->form(key_.scaling);
-    if (form.touchable && !context.engine_moves) {
-        body_->hold_still();
+    if ((form.touchable || is_first) && !context.engine_moves) {
+        body_->hold_still(form.touchable);
     }
     BodyPlan plan{std::move(form), values(context), body_->makings(key_.scaling), remembered(),
                   body_->can_be_thrown()};
@@ -73,7 +73,7 @@ void BodyMirror::plan(const MirrorContext& context) {
 void BodyMirror::hand_over(const MirrorContext& context) {
     if (body_->is_there() && twin_.take_ready(context.session, context.takes_effect)) {
         if (!context.engine_moves) {
-            body_->hold_still();
+            body_->hold_still(true);
         }
         is_near_ = false;
         remember();
@@ -170,7 +170,7 @@ void BodyMirror::synchronise(const MirrorContext& context, bool shapes_changed) 
             say_problems();
             return;
         }
-        body_->hold_still();
+        body_->hold_still(true);
         if (was_paused && !twin_.values().is_paused && can_be_thrown() && is_finite(speed_)) {
             twin_.write_velocity(context.session, speed_.linear, speed_.angular, Session::all_of_velocity);
         }

@@ -68,8 +68,8 @@ public:
     // newton meter seconds).
     virtual void push(const Vec3& impulse, const Vec3& turn) = 0;
 
-    // The engine's own physics leaves it where it is.
-    virtual void hold_still() = 0;
+    // Whether the engine's own physics leaves it where it is.
+    virtual void hold_still(bool held) = 0;
     // Changes of its place, and of what it is made of now, are told (BodyMirrors::news()) until let_go().
     virtual void listen() = 0;
     // Whether changes of its place are. They are not while it moves: it is asked in every frame then.

@@ -63,3 +63,63 @@ func test_a_body_that_only_the_operator_has_is_named() -> void:
 	var problems := "\n".join(_operator.get_problems())
 	check(problems.contains("Alone") and problems.contains("other side does not have"), problems)
 	check(not problems.contains("Floor"), problems)
+
+
+func _place_in(world: HapticWorld, name: String) -> Vector3:
+	return world.to_local((world.get_node(name) as Node3D).global_position)
+
+
+## Both sides touch the same floor beside the same box, and one of the two worlds is moved, in so many frames.
+func _move_while_touching(scenario: MMTLink.Scenario, moves_far: bool, to: Transform3D, steps: int) -> void:
+	await _connect(scenario)
+	for world: HapticWorld in [_operator, _far]:
+		add_floor(world, STIFFNESS)
+		var block := with_shape(RigidBody3D.new(), box(Vector3.ONE * 0.1), Vector3(0.3, 0.05, 0))
+		block.name = "Block"
+		world.add_child(block)
+	_far.gravity = Vector3(0, -9.81, 0)
+	_add_hands(0.3)
+	await frames(1)
+	_advance(1.0)
+	var moved: HapticWorld = _far if moves_far else _operator
+	for step in steps:
+		moved.global_transform = Transform3D.IDENTITY.interpolate_with(to, (step + 1.0) / steps)
+		_advance(0.01)
+		await frames(1)
+	for _step in 10:
+		_advance(0.1)
+		await frames(1)
+	# A far hand that begins inside a body presses nothing there, until it has left it.
+	(_operator.get_node("Device") as HapticDevice).path = path(Vector3(0, 0.05, 0), Vector3(0, -0.01, 0))
+	for _step in 15:
+		_advance(0.1)
+		await frames(1)
+	check_equal(_here.get_state(), MMTLink.STATE_CONNECTED, "state of the link")
+	for world: HapticWorld in [_operator, _far]:
+		check_near(_place_in(world, "Proxy"), Vector3(0, 0.01, 0), 1e-3, "the proxy in %s" % world.name)
+		check_near(_place_in(world, "Block"), Vector3(0.3, 0.05, 0), 1e-3, "the block in %s" % world.name)
+		var felt: Vector3 = (world.get_node("Proxy") as ProxyPointer).get_force()
+		check_near(felt.length(), 10.0, 0.1, "the force in %s" % world.name)
+
+
+func test_a_far_world_that_jumps_is_touched_as_before() -> void:
+	await _move_while_touching(MMTLink.SCENARIO_MMT, true, Transform3D(Basis(), Vector3(1, 0.5, 2)), 1)
+
+
+func test_a_far_world_that_is_turned_is_touched_as_before() -> void:
+	var turned := Basis(Vector3.UP, 1.0)
+	await _move_while_touching(MMTLink.SCENARIO_MMT, true, Transform3D(turned, Vector3(1, 0, 0)), 1)
+
+
+func test_a_far_world_that_was_moved_for_a_while_is_touched_as_before() -> void:
+	await _move_while_touching(MMTLink.SCENARIO_MMT, true, Transform3D(Basis(), Vector3(1, 0.5, 2)), 30)
+
+
+func test_an_operator_that_is_moved_touches_as_before() -> void:
+	await _move_while_touching(MMTLink.SCENARIO_MMT, false, Transform3D(Basis(), Vector3(1, 0.5, 2)), 1)
+
+
+func test_a_far_world_that_jumps_is_touched_directly_as_before() -> void:
+	await _move_while_touching(
+		MMTLink.SCENARIO_TRADITIONAL, true, Transform3D(Basis(), Vector3(1, 0.5, 2)), 1
+	)

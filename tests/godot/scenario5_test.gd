@@ -44,7 +44,7 @@ func test_what_the_camera_finds_is_what_the_operator_touches() -> void:
 	_start()
 	var sensor: HapticDepthSensor = _scene.get_node("Far/DepthSensor")
 	check(
-		await until(func() -> bool: return sensor.get_objects().size() >= 2, 60.0),
+		await until(func() -> bool: return sensor.get_objects().size() >= 2, 150.0),
 		"it says: %s, and has %s" % [sensor.get_state_text(), sensor.get_objects()]
 	)
 	check(await _knows_all(), "the operator has %s" % [_scene.get_node("HapticWorld").get_children()])
