@@ -113,7 +113,7 @@ TEST(Connecting, WhatComesFallingFallsAsThere) {
     ModelRig rig(conditions);
     rig.far->add("Ground", body(BoxShape{{1.0, 0.1, 1.0}}, {0.0, -2.0, 0.0}, Motion::Static));
     rig.run(1000 * ms);
-    const SessionHandle falls = rig.far->add("Box", brick({0.0, 1.0, 0.0}));
+    const SessionHandle falls = rig.far->add("Box", brick({0.5, 1.0, 0.0}));
     std::vector<double> model;
     double most = 0.0;
     for (int i = 0; i < 600; ++i) {
