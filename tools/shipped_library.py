@@ -62,6 +62,7 @@ def together(slices: list[ShippedLibrary]) -> ShippedLibrary:
 
 def _output(command: list) -> str:
     done = subprocess.run(command, text=True, capture_output=True)
-    if done.returncode != 0:
-        raise RuntimeError(f"{command[-1]} is no library: {done.stderr.strip()}")
+    # LLVM's ends with 0 where it has found none.
+    if done.returncode != 0 or done.stdout.rstrip().endswith("is not an object file"):
+        raise RuntimeError(f"{command[-1]} is no library: {done.stderr.strip() or done.stdout.strip()}")
     return done.stdout

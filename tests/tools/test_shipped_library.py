@@ -2,6 +2,7 @@
 
 import subprocess
 
+import pytest
 import shipped_library
 from setup import platforms
 
@@ -75,3 +76,12 @@ def test_each_slice_shows_the_door():
     slices = [shipped_library.described(text) for text in (FOR_MACOS, FOR_MACOS.replace("_tactus_library_init", "_other"))]
     assert shipped_library.together(slices[:1]).has_entry
     assert shipped_library.together(slices).complaint("macos") == "does not show tactus_library_init"
+
+
+def test_what_is_no_library_is_refused_whatever_its_reader_ends_with(tmp_path):
+    for ending in (0, 1):
+        reader = tmp_path / f"reader_{ending}"
+        reader.write_text(f"#!/bin/sh\necho $1: is not an object file\nexit {ending}\n")
+        reader.chmod(0o755)
+        with pytest.raises(RuntimeError, match="is no library"):
+            shipped_library._output([reader, "words.txt"])
