@@ -68,7 +68,7 @@ public:
         prop_.pushed += impulse;
         prop_.pushed_turn += turn;
     }
-    void hold_still() override { prop_.is_held = true; }
+    void hold_still(bool held) override { prop_.is_held = held; }
     void listen() override { prop_.is_listened_to = true; }
     void tell_of_moves(bool tell) override { prop_.tells_of_moves = tell; }
     void let_go() override { prop_.is_held = prop_.is_listened_to = false; }
