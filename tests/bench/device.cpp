@@ -299,15 +299,16 @@ struct PlayedLie {
     bool is_safe = false;
 };
 
-// Again where a processor stood still meanwhile, or a tick that was late was a cut of its own.
+// Again where a processor stood still meanwhile.
 PlayedLie play_lie(LyingHand& hand, stand_ins::Field field, stand_ins::Lie lie, bool is_cut) {
     constexpr int most_times = 10;
     PlayedLie played;
-    for (int i = 0; i < most_times && !(played.is_safe && played.figures.was_even); ++i) {
+    played.figures.was_even = false;
+    for (int i = 0; i < most_times && !played.figures.was_even; ++i) {
         played.figures = hand.play(field, lie);
-        played.is_safe = (played.figures.to_zero_ms >= 0.0 || !is_cut) && played.figures.has_returned &&
-                         played.figures.return_step_max <= 1e-3 * hand.slew() + 1e-9;
     }
+    played.is_safe = (played.figures.to_zero_ms >= 0.0 || !is_cut) && played.figures.has_returned &&
+                     played.figures.return_step_max <= 1e-3 * hand.slew() + 1e-9;
     return played;
 }
 
