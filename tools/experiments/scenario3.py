@@ -1,11 +1,13 @@
 """Scenario 3: the operator's hand moves a robot in a real place, and feels what the robot runs into (thesis 4.4.1).
 
-    ./run experiment scenario3 [--seconds=10] [--robot=mujoco]
+    ./run experiment scenario3 [--seconds=10] [--delay=0,25,50,100,200] [--robot=mujoco]
 
 The robot is emulated (extension/devices/emulated_robot.hpp): a delta arm with a Falcon's geometry, encoders and motors,
 friction and backlash, in a world of its own. The operator's arm means to follow a path through a ground and is pushed back.
---robot=mujoco: the same operator, a Godot process, leads a sphere on three slide joints in a place that MuJoCo simulates
-(measuring/mujoco_place.py), over UDP and in virtual time.
+--robot=mujoco: the same operator, a Godot process, leads an arm with seven joints in a place that MuJoCo simulates
+(measuring/mujoco_place.py, measuring/mujoco_arm.py), over UDP and in virtual time.
+
+--delay     there and back (ms)
 
 traditional_robot.DELAYms.*                   round trip of so much, forces as they come
 traditional_robot_CONTROLLER.DELAYms.*        with a passivity controller at both ends
@@ -29,7 +31,6 @@ from typing import Literal
 from measuring import mujoco_runs, options, rivals, teleop_processes, teleop_runs
 from measuring.teleop_scene import Scene
 
-DELAYS = (0, 25, 50, 100, 200)  # there and back (milliseconds)
 FIGURES = {
     "position_error_rms_mm": "hand_position_error_rms_mm",
     "force_error_mean_N": "force_error_mean_N",
@@ -40,6 +41,7 @@ FIGURES = {
 @dataclass(frozen=True)
 class Settings:
     seconds: float = options.seconds(10.0)
+    delay: tuple[float, ...] = options.numbers((0, 25, 50, 100, 200), "ms", most=options.LONGEST_DELAY_MS)
     robot: Literal["emulated", "mujoco"] = "emulated"
 
 
@@ -47,11 +49,11 @@ def cases(description: dict, settings: Settings) -> list[teleop_runs.Case]:
     ways = {"traditional_robot": {}} | {f"traditional_robot_{way}": rivals.SCHEMES[f"traditional_{way}"] for way in ("time_domain",)}
     return [
         {
-            "name": f"{name}.{delay}ms", "robot": 1, "arm": 1, "delay_ms": delay, "seconds": settings.seconds,
+            "name": f"{name}.{delay:g}ms", "robot": 1, "arm": 1, "delay_ms": delay, "seconds": settings.seconds,
             **description["arm"], **keys,
         }
         for name, keys in ways.items()
-        for delay in DELAYS
+        for delay in settings.delay
     ]  # fmt: skip
 
 
@@ -62,11 +64,11 @@ def mujoco_cases(description: dict, settings: Settings) -> list[dict]:
     bodies = mujoco_runs.bodies_of(Scene(description["scene"]))
     return [
         {
-            "name": f"mujoco_robot{way}.{delay}ms", "passivity": passivity, "delay_ms": delay, "seconds": settings.seconds,
+            "name": f"mujoco_robot{way}.{delay:g}ms", "passivity": passivity, "delay_ms": delay, "seconds": settings.seconds,
             "bodies": bodies, "operator": operator,
         }
         for way, passivity in (("", 0), ("_time_domain", 2))
-        for delay in DELAYS
+        for delay in settings.delay
     ]  # fmt: skip
 
 

@@ -2,89 +2,23 @@
 virtual time, and prints a line of JSON with the figures of each. Runs in MuJoCo's own virtual environment
 (tools/credibility/requirements.txt).
 
-The robot is a sphere of 10 mm radius and 0.2 kg on three slide joints. A spring and a damper drive it to where the operator's sample is, no
-faster than 1 m/s, as those of RobotSide do. MuJoCo finds its contacts and their friction. The contact force is low-passed at
-200 rad/s, as RobotSide's observer of contact forces does, and sent to the operator. Direct contact is a second copy of this robot that
-is driven by the operator's device position of the same tick, without a link.
+The robot is an arm (mujoco_arm.py) that is led to where the operator's sample is; the force of its sensor is sent to the operator.
+Direct contact is a second copy of this arm that is driven by the operator's device position of the same tick, without a link.
 """
 
 import json
 import sys
 from pathlib import Path
 
-import mujoco
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from measuring import peer_operator
+from measuring.mujoco_arm import TICK, Arm
 from tactus_peer import Teleoperator, messages
 
-TICK = 1e-3  # (unit: seconds)
-SUBSTEPS = 4
-MASS, RADIUS = 0.2, 0.01  # (units: kilograms, meters)
-STIFFNESS, DAMPING, SPEED = 1000.0, 20.0, 1.0  # of the drive (units: newtons per meter, newton seconds per meter, meters per second)
-BANDWIDTH = 200.0  # of the contact force (unit: radians per second)
-NO_FORCE = 0.02  # less is sent as none (unit: newtons)
 # PassivitySettings: what a teleoperator with passivity control in the time domain spends and how it yields.
 FAR_STORE, DRIFT_RATE, LARGEST_YIELD = 0.005, 10.0, 1.0  # (units: joules, 1/seconds, meters per newton second)
-
-
-def model_of(bodies: list[dict]) -> str:
-    """`bodies`: static boxes and spheres, {"kind", "size" (half extents, or a radius), "at", "friction"}."""
-    geoms = "".join(
-        f'<geom type="{one["kind"]}" size="{_words(one["size"])}" pos="{_words(one["at"])}" friction="{one["friction"]} 0 0"/>'
-        for one in bodies
-    )
-    slides = "".join(f'<joint type="slide" axis="{axis}"/>' for axis in ("1 0 0", "0 1 0", "0 0 1"))
-    return f"""<mujoco>
-        <option timestep="{TICK / SUBSTEPS}" gravity="0 -9.81 0" cone="elliptic" integrator="implicitfast"/>
-        <default><geom condim="3" solref="0.005 1"/></default>
-        <worldbody>{geoms}<body name="tip" gravcomp="1">{slides}<geom name="tip" type="sphere" size="{RADIUS}" mass="{MASS}"
-            friction="0 0 0"/></body></worldbody></mujoco>"""
-
-
-def _words(numbers: list[float]) -> str:
-    return " ".join(map(str, numbers))
-
-
-class Robot:
-    def __init__(self, xml: str, at: np.ndarray):
-        self._model = mujoco.MjModel.from_xml_string(xml)
-        self._data = mujoco.MjData(self._model)
-        self._tip = self._model.geom("tip").id
-        self._data.qpos[:] = self._target = at
-        self._smooth = np.zeros(3)
-        self.touches = False
-        self.contact = np.zeros(3)  # of the surroundings on the tip (unit: newtons)
-
-    @property
-    def tip(self) -> np.ndarray:
-        return self._data.qpos.copy()
-
-    def go(self, wanted: np.ndarray) -> None:
-        """One tick, led to where it is wanted (unit: meters)."""
-        way = wanted - self._target
-        length = np.linalg.norm(way)
-        way *= min(1.0, SPEED * TICK / length) if length > 0.0 else 0.0
-        self._target = self._target + way
-        pushed = np.zeros(3)
-        for _ in range(SUBSTEPS):
-            drive = STIFFNESS * (self._target - self._data.qpos) + DAMPING * (way / TICK - self._data.qvel)
-            self._data.qfrc_applied[:] = drive
-            mujoco.mj_step(self._model, self._data)
-            pushed += self._contact_force() / SUBSTEPS
-        self.touches = bool(np.any(pushed))
-        self._smooth += (1.0 - np.exp(-BANDWIDTH * TICK)) * (pushed - self._smooth)
-        self.contact = self._smooth.copy() if np.linalg.norm(self._smooth) > NO_FORCE else np.zeros(3)
-
-    def _contact_force(self) -> np.ndarray:
-        total, wrench = np.zeros(3), np.zeros(6)
-        for number in range(self._data.ncon):
-            contact = self._data.contact[number]
-            mujoco.mj_contactForce(self._model, self._data, number, wrench)
-            force = contact.frame.reshape(3, 3).T @ wrench[:3]  # from geom1 on geom2
-            total += force if contact.geom2 == self._tip else -force
-        return total
 
 
 class Yielding:
@@ -136,7 +70,7 @@ def play(case: dict) -> dict[str, float]:
         with peer_operator.Operator({**options, "tuning.passivity": case["passivity"]}) as operator:
             peer_operator.meet(operator, side)
             start = np.array(operator.rows[-1]["hand"])
-            robot, direct = (Robot(model_of(case["bodies"]), start) for _ in range(2))
+            robot, direct = (Arm(case["bodies"], start) for _ in range(2))
             yielding = Yielding(start)
             hand_port, far_port = Port(), Port()
             rows: dict[str, list[float]] = {name: [] for name in ("place", "force", "touches", "direct_touches", "link")}
