@@ -19,7 +19,8 @@ using namespace godot;
 
 namespace {
 
-// { "turn": [1, 0, 0, 10], "mass": 1.2 }: the axis and its angle in degrees; factors.
+// { "rotation": [1, 0, 0, 0.17], "mass": 1.2 }: the axis and its angle in radians; factors. "turn" is the
+// same in degrees, from before 1.0.
 ModelError read_error(const Dictionary& from) {
     ModelError error;
     const auto vector = [](const Array& list) {
@@ -31,10 +32,14 @@ ModelError read_error(const Dictionary& from) {
         return is_at_least_zero(value) ? value : 1.0;
     };
     error.move = vector(from.get("move", Array()));
-    const Array turn = from.get("turn", Array());
-    if (const Vec3 axis = vector(turn); turn.size() == 4 && glm::length(axis) > 0.0) {
-        error.turn = glm::angleAxis(glm::radians(static_cast<double>(turn[3])), glm::normalize(axis));
-    }
+    const auto read_turn = [&](const char* what, double unit) {
+        const Array turn = from.get(what, Array());
+        if (const Vec3 axis = vector(turn); turn.size() == 4 && glm::length(axis) > 0.0) {
+            error.turn = glm::angleAxis(unit * static_cast<double>(turn[3]), glm::normalize(axis));
+        }
+    };
+    read_turn("turn", glm::radians(1.0));
+    read_turn("rotation", 1.0);
     error.mass = read_factor("mass");
     error.friction = read_factor("friction");
     error.touch_friction = read_factor("touch_friction");
@@ -57,17 +62,18 @@ bool are_numbers(const Array& list) {
 // Why what is wrong of one body cannot be read; empty where it can.
 String problem_of_error(const String& key, const Variant& value) {
     const bool is_move = key == "move", is_turn = key == "turn";
-    if (is_move || is_turn) {
+    if (is_move || is_turn || key == "rotation") {
         const int64_t count = is_move ? 3 : 4;
         const Array list = value.get_type() == Variant::ARRAY ? static_cast<Array>(value) : Array();
         return list.size() == count && are_numbers(list)
                    ? String()
-                   : String(is_move ? "move must be [x, y, z] in meters"
-                                    : "turn must be [x, y, z, degrees]: an axis and an angle");
+                   : String(is_move   ? "move must be [x, y, z] in meters"
+                            : is_turn ? "turn must be [x, y, z, degrees]: an axis and an angle"
+                                      : "rotation must be [x, y, z, radians]: an axis and an angle");
     }
     if (key != "mass" && key != "friction" && key != "touch_friction" && key != "stiffness") {
         return "there is no '" + key +
-               "': it is one of move, turn, mass, friction, touch_friction, stiffness";
+               "': it is one of move, rotation, mass, friction, touch_friction, stiffness";
     }
     Array one;
     one.push_back(value);

@@ -196,7 +196,7 @@ func test_model_errors_are_read_by_name_kind_and_range() -> void:
 	expect_error("model_errors")
 	var link := MMTLink.new()
 	add_child(link)
-	var right := {"Box": {"mass": 1.2, "turn": [1, 0, 0, 10], "move": [0.0, 0.01, 0.0]}}
+	var right := {"Box": {"mass": 1.2, "rotation": [1, 0, 0, 0.17], "move": [0.0, 0.01, 0.0]}}
 	link.model_errors = right
 	for wrong: Dictionary in [
 		{"Box": {"mas": 1.2}},
@@ -205,6 +205,7 @@ func test_model_errors_are_read_by_name_kind_and_range() -> void:
 		{"Box": {"mass": NAN}},
 		{"Box": {"move": [0.0, 0.1]}},
 		{"Box": {"turn": [1, 0, 0]}},
+		{"Box": {"rotation": [1, 0, 0, NAN]}},
 		{"Box": {"move": 0.1}},
 		{"Box": 1.2},
 	]:

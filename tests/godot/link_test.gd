@@ -338,6 +338,19 @@ func test_what_an_experiment_makes_wrong_about_the_model_is_corrected() -> void:
 	)
 
 
+func test_a_wrong_rotation_of_the_model_is_in_radians() -> void:
+	await _connect(MMTLink.SCENARIO_MMT, 0.05)
+	_here.correction_scheme = MMTLink.CORRECTION_NONE
+	add_floor(_far, STIFFNESS)
+	_add_hands(0.3)
+	# The former word is in degrees.
+	for wrong: Dictionary in [{"rotation": [0, 0, 1, 0.1]}, {"turn": [0, 0, 1, rad_to_deg(0.1)]}]:
+		_here.model_errors = {"Floor": wrong}
+		await frames(1)
+		_advance(1.0)
+		check_near(_felt(_operator).angle_to(Vector3.UP), 0.1, 1e-3, "tilt of the force with %s" % wrong)
+
+
 func test_a_history_that_is_shorter_than_the_delay_is_told() -> void:
 	await _connect(MMTLink.SCENARIO_MMT, 0.4)
 	_here.history = 0.2
