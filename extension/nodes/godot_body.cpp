@@ -268,6 +268,7 @@ void GodotBody::let_go() {
     }
     if (rigid_ != nullptr && is_there()) {
         tactus::hold_still(*rigid_, false);
+        rigid_->set_sleeping(false);  // Godot has put it to sleep while it was held
     }
 }
 

@@ -31,6 +31,7 @@ void SceneBodies::scene_changed(Node& node, bool comes) {
 // session with a place and a velocity that nothing there has given it.
 void SceneBodies::hold_until_found(RigidBody3D& body, bool comes) {
     if (comes && scene_.world.is_ancestor_of(&body)) {
+        say_passed_over(body);  // as the script has made it: a body that is held sleeps
         hold_still(body, true);
         arriving_.insert(body.get_instance_id());
     } else if (!comes && arriving_.erase(body.get_instance_id()) > 0) {

@@ -316,6 +316,9 @@ func test_feedback_without_a_proxy_says_so() -> void:
 ## A ball flies through where each of them would be.
 func test_a_hand_whose_device_is_not_there_is_nowhere() -> void:
 	OS.set_environment("SPNAV_SOCKET", OS.get_user_data_dir().path_join("no_such_spacenavd"))
+	var of_their_own := [
+		HapticDevice.DRIVER_FORCE_DIMENSION, HapticDevice.DRIVER_OPENHAPTICS, HapticDevice.DRIVER_INVERSE3
+	]
 	for driver: int in [
 		HapticDevice.DRIVER_FALCON,
 		HapticDevice.DRIVER_FORCE_DIMENSION,
@@ -325,7 +328,9 @@ func test_a_hand_whose_device_is_not_there_is_nowhere() -> void:
 		HapticDevice.DRIVER_SPACE_MOUSE,
 		HapticDevice.DRIVER_NODE,
 	]:
-		expect_error("Device: ")
+		# One with a thread of its own may be plugged in at any time.
+		if driver not in of_their_own:
+			expect_error("Device: ")
 		var world := add_world()
 		var device := _device(world, driver)
 		var tip := ProxyPointer.new()

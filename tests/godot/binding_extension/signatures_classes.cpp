@@ -102,6 +102,7 @@ void list_classes() {
 
     same<void (BaseMaterial3D::*)(BaseMaterial3D::CullMode)>(&BaseMaterial3D::set_cull_mode);
     same<void (BaseMaterial3D::*)(BaseMaterial3D::Flags, bool)>(&BaseMaterial3D::set_flag);
+    same<void (BaseMaterial3D::*)(float)>(&BaseMaterial3D::set_point_size);
     same<void (BaseMaterial3D::*)(BaseMaterial3D::ShadingMode)>(&BaseMaterial3D::set_shading_mode);
     same<void (BaseMaterial3D::*)(BaseMaterial3D::Transparency)>(&BaseMaterial3D::set_transparency);
     same<void (BaseMaterial3D::*)(const Color&)>(&BaseMaterial3D::set_albedo);
@@ -223,6 +224,7 @@ void list_classes() {
     same<RID (Material::*)() const>(&Material::_get_shader_rid);
     same<bool (Material::*)() const>(&Material::_can_do_next_pass);
     same<bool (Material::*)() const>(&Material::_can_use_render_priority);
+    same<void (Material::*)(const Ref<Material>&)>(&Material::set_next_pass);
 
     same<AABB (Mesh::*)() const>(&Mesh::_get_aabb);
     same<Array (Mesh::*)(int32_t) const>(&Mesh::_surface_get_arrays);
@@ -334,6 +336,8 @@ void list_classes() {
     same<PhysicsServer3D* (*)()>(&PhysicsServer3D::get_singleton);
     same<PhysicsDirectBodyState3D* (PhysicsServer3D::*)(const RID&)>(&PhysicsServer3D::body_get_direct_state);
     same<PhysicsServer3D::BodyMode (PhysicsServer3D::*)(const RID&) const>(&PhysicsServer3D::body_get_mode);
+    same<Variant (PhysicsServer3D::*)(const RID&, PhysicsServer3D::BodyParameter) const>(
+        &PhysicsServer3D::body_get_param);
     same<void (PhysicsServer3D::*)(const RID&, PhysicsServer3D::BodyMode)>(&PhysicsServer3D::body_set_mode);
     same<void (PhysicsServer3D::*)(const RID&, const Vector3&)>(&PhysicsServer3D::body_apply_central_impulse);
     same<void (PhysicsServer3D::*)(const RID&, const Vector3&)>(&PhysicsServer3D::body_apply_torque_impulse);
@@ -389,6 +393,7 @@ void list_classes() {
     same<void (RigidBody3D::*)(bool)>(&RigidBody3D::set_freeze_enabled);
     same<void (RigidBody3D::*)(const Vector3&)>(&RigidBody3D::set_angular_velocity);
     same<void (RigidBody3D::*)(const Vector3&)>(&RigidBody3D::set_linear_velocity);
+    same<void (RigidBody3D::*)(bool)>(&RigidBody3D::set_sleeping);
     same<void (RigidBody3D::*)(const Vector3&)>(&RigidBody3D::apply_torque);
     same<void (RigidBody3D::*)(const Vector3&)>(&RigidBody3D::apply_torque_impulse);
     same<void (RigidBody3D::*)(const Vector3&, const Vector3&)>(&RigidBody3D::apply_force);

@@ -92,11 +92,12 @@ func _width_of(text: String) -> float:
 
 
 ## A name and what follows it; where that is wider than the plot, without the beginning of the name.
-func _shortened(name: String, rest: String) -> String:
-	var text := name + rest
-	while name.length() > 1 and _width_of(text) > size.x - 2 * MARGIN:
-		name = name.substr(1)
-		text = "…" + name + rest
+func _shortened(whole: String, rest: String) -> String:
+	var shown := whole
+	var text := shown + rest
+	while shown.length() > 1 and _width_of(text) > size.x - 2 * MARGIN:
+		shown = shown.substr(1)
+		text = "…" + shown + rest
 	return text
 
 
