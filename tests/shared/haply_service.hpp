@@ -76,6 +76,11 @@ public:
         }
         return force_;
     }
+    // How often it has had no answer to a state.
+    int waited() {
+        force();
+        return waited_;
+    }
     // When it first sent what it was made to say by lie() (on the steady clock); 0: not yet.
     Nanoseconds told_at() {
         newest_force();
@@ -105,11 +110,14 @@ private:
     bool take_force() {
         for (pollfd file{from_, POLLIN, 0}; poll(&file, 1, 0) > 0 && (file.revents & POLLIN) != 0;) {
             std::string said = line();
-            if (!said.starts_with("lied ")) {
+            if (said == "waited") {
+                ++waited_;
+            } else if (said.starts_with("lied ")) {
+                told_at_ = std::strtoll(said.c_str() + 5, nullptr, 10);
+            } else {
                 force_ = std::move(said);
                 return true;
             }
-            told_at_ = std::strtoll(said.c_str() + 5, nullptr, 10);
         }
         return false;
     }
@@ -131,6 +139,7 @@ private:
     Vec3 newest_{0.0};
     double most_step_ = 0.0;
     Nanoseconds told_at_ = 0;
+    int waited_ = 0;
 };
 
 }  // namespace tactus::shared

@@ -1,9 +1,10 @@
 """Answers as Haply's service does, for tests: states of one Inverse3 and its grip, a thousand times a second, one more
 only after the last has been answered with a force.
 
-    haply_service.py [silent|nonsense|uncalibrated]
+    haply_service.py [silent|nonsense|uncalibrated|hasty]
 
-Prints its port, then each force that is another one, as "x y z". A line on stdin: "drop" closes the connection, "mad"
+A hasty one that has an answer in advance tells two states at once. Prints its port, then each force that is another one, as
+"x y z", and "waited" where no answer came and it told its state again. A line on stdin: "drop" closes the connection, "mad"
 makes nonsense of all it says from now on over this one, "lie FIELD MANNER" lets one field of its states lie; "lied
 NANOSECONDS", on the steady clock, says when the first of them was sent.
 """
@@ -123,6 +124,12 @@ def force_of(text: str) -> tuple[float, float, float]:
     return tuple(round(command["vector"][axis], 3) + 0.0 for axis in "xyz")
 
 
+def heard(force: tuple, last: tuple | None) -> tuple:
+    if force != last:
+        print(*force, flush=True)
+    return force
+
+
 def serve(client: socket.socket, manner: str, lie: list[str]) -> None:
     shake_hands(client)
     last = None
@@ -130,7 +137,11 @@ def serve(client: socket.socket, manner: str, lie: list[str]) -> None:
     while True:
         if manner != "silent" and lie[1:] != ["silent"]:
             told = state(manner != "uncalibrated")
-            client.sendall(frame("{]" if manner == "nonsense" else json.dumps(lying(told, *lie) if lie else told)))
+            if manner == "hasty" and select.select([client], [], [], 0)[0] and (text := message(client)) is not None:
+                last = heard(force_of(text), last)
+                client.sendall(2 * frame(json.dumps(told)))
+            else:
+                client.sendall(frame("{]" if manner == "nonsense" else json.dumps(lying(told, *lie) if lie else told)))
         if not has_lied:
             print("lied", time.monotonic_ns(), flush=True)
             has_lied = True
@@ -148,12 +159,11 @@ def serve(client: socket.socket, manner: str, lie: list[str]) -> None:
                 else:
                     return
             if client not in readable:
+                print("waited", flush=True)
                 break  # no answer yet: it is told again, as the real one does at its own pace
             text = message(client)
             if text is not None:
-                if (force := force_of(text)) != last:
-                    print(*force, flush=True)
-                    last = force
+                last = heard(force_of(text), last)
                 break
         time.sleep(0.0008)
 

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdio>
 #include <glm/geometric.hpp>
-#include <utility>
 
 #include "platform/clock.hpp"
 
@@ -48,7 +47,7 @@ std::string Inverse3Driver::open(const std::atomic<bool>& stop) {
     }
     std::string problem = "Haply's service says nothing: start Haply Hub anew";
     for (const Nanoseconds end = monotonic_now() + first_state; monotonic_now() < end && !stop.load();) {
-        if (!socket_.receive(text_, look_again)) {
+        if (socket_.receive(text_, look_again) == 0) {
             continue;
         }
         problem = choose(json_.read(text_));
@@ -86,7 +85,7 @@ void Inverse3Driver::close() {
     }
     socket_.close();
     sent_ = Vec3(0.0);
-    is_ahead_ = false;
+    owed_ = 0;
     claim_.give_back();
 }
 
@@ -154,18 +153,20 @@ Driver::Exchange Inverse3Driver::exchange(ForceSlot& forces, Nanoseconds until, 
     for (;;) {
         const std::array files{socket_.file()};
         forces.wait_for_files(sent_ != Vec3(0.0) ? std::min(until, forces.end() + 1) : until, files);
-        const bool came = socket_.receive(text_, 0);
+        const int came = socket_.receive(text_, 0);
         if (socket_.is_gone()) {
             return Exchange::lost;
         }
         const Nanoseconds now = monotonic_now();
-        if (came && take(json_.read(text_), reading.sample)) {
+        owed_ += came;
+        if (came > 0 && take(json_.read(text_), reading.sample)) {
             reading.at = now;
             forces.heard(now, now);
             const Vec3 force = forces.living(now);
-            if (!std::exchange(is_ahead_, false)) {
+            if (owed_ > 0) {
                 send(reading.sample.connected ? force : Vec3(0.0));
                 forces.given(monotonic_now());
+                owed_ = 0;
             }
             if (!reading.sample.connected) {
                 forces.taken();  // whether or not the loop sees this reading
@@ -173,10 +174,11 @@ Driver::Exchange Inverse3Driver::exchange(ForceSlot& forces, Nanoseconds until, 
             return Exchange::reading;
         }
         // A newer force of the loop waits for the next state. That none is left does not: it is the answer to
-        // the next state, since one message more than there are states would wait there, and all behind it.
+        // the next state, since one message more than there are states would wait there, and all behind it;
+        // one less, and the service waits. Two states may come at once where the first had its answer.
         if (sent_ != Vec3(0.0) && now > forces.end() && forces.living(now) == Vec3(0.0)) {
             send(Vec3(0.0));
-            is_ahead_ = true;
+            --owed_;
         }
         if (now >= until) {
             return Exchange::nothing;

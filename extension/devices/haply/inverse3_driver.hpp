@@ -40,8 +40,8 @@ private:
     WebSocket socket_;
     JsonReader json_;
     std::string text_;
-    Vec3 sent_{0.0};         // (unit: newtons)
-    bool is_ahead_ = false;  // the next state has its answer
+    Vec3 sent_{0.0};  // (unit: newtons)
+    int owed_ = 0;    // answers to states; below 0: so many of the next have theirs
     bool is_calibrated_ = true, is_powered_ = true;
 };
 

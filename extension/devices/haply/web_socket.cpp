@@ -88,7 +88,7 @@ std::string WebSocket::open(std::uint16_t port) {
         WebSocket& socket = *static_cast<WebSocket*>(self);
         if (arrival->opcode == opcode_text) {
             socket.arrived_.assign(reinterpret_cast<const char*>(arrival->bytes), arrival->size);
-            socket.has_arrived_ = true;
+            ++socket.arrivals_;
         }
     };
     if (wslay_.init(&context_, &callbacks, this) != 0) {
@@ -97,7 +97,8 @@ std::string WebSocket::open(std::uint16_t port) {
         return "wslay does not start: is memory short?";
     }
     wslay_.set_most(context_, longest_message);
-    is_gone_ = has_arrived_ = false;
+    is_gone_ = false;
+    arrivals_ = 0;
     return {};
 }
 
@@ -140,18 +141,18 @@ void WebSocket::close() {
     begun_.clear();
 }
 
-bool WebSocket::receive(std::string& text, Nanoseconds at_most) {
-    has_arrived_ = false;
+int WebSocket::receive(std::string& text, Nanoseconds at_most) {
+    arrivals_ = 0;
     is_gone_ = is_gone_ || wslay_.receive(context_) != 0;
-    if (!has_arrived_ && !is_gone_ && at_most > 0) {
+    if (arrivals_ == 0 && !is_gone_ && at_most > 0) {
         socket_.wait(at_most);
         is_gone_ = wslay_.receive(context_) != 0;
     }
     is_gone_ = is_gone_ || wslay_.send(context_) != 0;  // what the protocol itself answers
-    if (has_arrived_) {
+    if (arrivals_ > 0) {
         text.swap(arrived_);
     }
-    return has_arrived_;
+    return arrivals_;
 }
 
 void WebSocket::send(const std::string& text) {

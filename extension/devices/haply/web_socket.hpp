@@ -22,8 +22,8 @@ public:
     std::string open(std::uint16_t port);
     void close();
 
-    // The newest text that has come, waiting until then; false: none. More than one: the older ones are lost.
-    bool receive(std::string& text, Nanoseconds at_most);
+    // The newest text that has come, waiting until then, and how many have come; the older ones are lost.
+    int receive(std::string& text, Nanoseconds at_most);
     void send(const std::string& text);
     bool is_gone() const { return is_gone_; }
     WaitFile file() const { return socket_.file(); }
@@ -72,7 +72,7 @@ private:
     std::string begun_;  // that came behind the handshake
     std::string arrived_;
     std::uint32_t mask_ = 0x9e3779b9u;
-    bool has_arrived_ = false;
+    int arrivals_ = 0;  // since receive() began
     bool is_gone_ = false;
 };
 

@@ -75,6 +75,23 @@ TEST(Inverse3, AForceIsNoLaterAfterManyCuts) {
     EXPECT_LT(device->health().readings - before, cuts / 2);
 }
 
+// One that had its answer in advance, and the next: where only the newest counted, the service waited for the
+// other one's answer, and the force for the service.
+TEST(Inverse3, AnswersStatesThatComeTogether) {
+    NEEDS_LIBRARIES();
+    HaplyService service("hasty");
+    const auto device = inverse3(service);
+    constexpr int cuts = 40;
+    int waited = 0;
+    for (int i = 0; i < cuts; ++i) {
+        ASSERT_TRUE(tick_until(*device, {1.0, 0.0, 0.0},
+                               [&](const auto&) { return service.force() == "1.0 0.0 0.0"; }));
+        waited = i == 0 ? service.waited() : waited;  // for the driver to open
+        ASSERT_TRUE(wait_until([&] { return service.force() == "0.0 0.0 0.0"; }));
+    }
+    EXPECT_LT(service.waited() - waited, cuts / 4);
+}
+
 // Its last buttons stayed held, and with them a dead man's button.
 TEST(Inverse3, AGripThatSleepsOrIsOutOfReachHoldsNoButton) {
     NEEDS_LIBRARIES();
