@@ -81,6 +81,11 @@ public:
         force();
         return waited_;
     }
+    // How often it has had a frame of the protocol's own in place of an answer.
+    int acknowledged() {
+        force();
+        return acknowledged_;
+    }
     // When it first sent what it was made to say by lie() (on the steady clock); 0: not yet.
     Nanoseconds told_at() {
         newest_force();
@@ -112,6 +117,8 @@ private:
             std::string said = line();
             if (said == "waited") {
                 ++waited_;
+            } else if (said == "acknowledged") {
+                ++acknowledged_;
             } else if (said.starts_with("lied ")) {
                 told_at_ = std::strtoll(said.c_str() + 5, nullptr, 10);
             } else {
@@ -139,7 +146,7 @@ private:
     Vec3 newest_{0.0};
     double most_step_ = 0.0;
     Nanoseconds told_at_ = 0;
-    int waited_ = 0;
+    int waited_ = 0, acknowledged_ = 0;
 };
 
 }  // namespace tactus::shared

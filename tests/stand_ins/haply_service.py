@@ -4,9 +4,9 @@ only after the last has been answered with a force.
     haply_service.py [silent|nonsense|uncalibrated|hasty]
 
 A hasty one that has an answer in advance tells two states at once. Prints its port, then each force that is another one, as
-"x y z", and "waited" where no answer came and it told its state again. A line on stdin: "drop" closes the connection, "mad"
-makes nonsense of all it says from now on over this one, "lie FIELD MANNER" lets one field of its states lie; "lied
-NANOSECONDS", on the steady clock, says when the first of them was sent.
+"x y z", "waited" where no answer came and it told its state again, and "acknowledged" for a frame of the protocol's own.
+A line on stdin: "drop" closes the connection, "mad" makes nonsense of all it says from now on over this one, "lie FIELD
+MANNER" lets one field of its states lie; "lied NANOSECONDS", on the steady clock, says when the first of them was sent.
 """
 
 import base64
@@ -165,6 +165,7 @@ def serve(client: socket.socket, manner: str, lie: list[str]) -> None:
             if text is not None:
                 last = heard(force_of(text), last)
                 break
+            print("acknowledged", flush=True)
         time.sleep(0.0008)
 
 

@@ -167,6 +167,8 @@ Driver::Exchange Inverse3Driver::exchange(ForceSlot& forces, Nanoseconds until, 
                 send(reading.sample.connected ? force : Vec3(0.0));
                 forces.given(monotonic_now());
                 owed_ = 0;
+            } else {
+                socket_.acknowledge();
             }
             if (!reading.sample.connected) {
                 forces.taken();  // whether or not the loop sees this reading

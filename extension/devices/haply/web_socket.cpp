@@ -10,6 +10,7 @@ namespace tactus {
 namespace {
 
 constexpr std::uint8_t opcode_text = 1;
+constexpr std::uint8_t opcode_pong = 10;
 constexpr int would_block = -401;
 constexpr int callback_failed = -400;
 
@@ -156,7 +157,15 @@ int WebSocket::receive(std::string& text, Nanoseconds at_most) {
 }
 
 void WebSocket::send(const std::string& text) {
-    const Message message{opcode_text, reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+    send(opcode_text, text);
+}
+
+void WebSocket::acknowledge() {
+    send(opcode_pong, {});
+}
+
+void WebSocket::send(std::uint8_t opcode, const std::string& text) {
+    const Message message{opcode, reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
     is_gone_ = is_gone_ || wslay_.queue(context_, &message) != 0 || wslay_.send(context_) != 0;
 }
 

@@ -25,6 +25,9 @@ public:
     // The newest text that has come, waiting until then, and how many have come; the older ones are lost.
     int receive(std::string& text, Nanoseconds at_most);
     void send(const std::string& text);
+    // An unsolicited pong (RFC 6455, 5.5.3), in place of an answer: it takes TCP's acknowledgment along. A
+    // peer that collects small writes until they are acknowledged (RFC 896) would be late by 40 ms.
+    void acknowledge();
     bool is_gone() const { return is_gone_; }
     WaitFile file() const { return socket_.file(); }
 
@@ -62,6 +65,7 @@ private:
         int (*queue)(Context*, const Message*) = nullptr;
     };
 
+    void send(std::uint8_t opcode, const std::string& text);
     std::string load();
     std::string shake_hands(std::uint16_t port);
 
