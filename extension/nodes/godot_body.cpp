@@ -46,7 +46,7 @@ void read_surfaces(const HapticMesh& mesh, BodyValues& values) {
     }
 }
 
-// As Godot's own physics has it, whoever has told it: RigidBody3D, or a script past it.
+// As Godot's own physics has it, told by RigidBody3D or by a script past it.
 double told(const RID& body, PhysicsServer3D::BodyParameter what) {
     return static_cast<double>(PhysicsServer3D::get_singleton()->body_get_param(body, what));
 }

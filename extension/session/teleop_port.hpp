@@ -88,7 +88,7 @@ struct TeleopStatistics {
     std::uint64_t sample = 0;  // operator: the newest of its own; far side: the newest applied
     LinkStatistics link;
     DiscoveryCounts discovery;          // far side
-    StateLoad load;                     // likewise
+    StateLoad load;                     // far side
     std::uint64_t unknown_objects = 0;  // states of objects that are not there
     std::uint64_t stale_states = 0;     // older than what is known
     std::uint64_t corrections = 0;      // ticks in which the model was corrected

@@ -205,17 +205,23 @@ TEST(FarPresence, APointerThatIsFreedLeavesGently) {
     }
 }
 
-TEST(FarPresence, AToolThatIsFreedLeavesGently) {
-    LinkedTools places(0.05);
-    places.add(floor_of(0.5));
-    places.settle();
-    put(places.hand(), {0.0, 0.1, 0.0}, Quat(1.0, 0.0, 0.0, 0.0));
-    places.ticks(300);
-    for (int i = 0; i < 300; ++i) {
-        put(places.hand(), {0.0, 0.1 - 1e-3 * 0.33 * i, 0.0}, Quat(1.0, 0.0, 0.0, 0.0));
-        places.tick();
+// A tool that presses onto the floor of the far side.
+struct PressingTool : LinkedTools {
+    PressingTool() : LinkedTools(0.05) {
+        add(floor_of(0.5));
+        settle();
+        put(hand(), {0.0, 0.1, 0.0}, Quat(1.0, 0.0, 0.0, 0.0));
+        ticks(300);
+        for (int i = 0; i < 300; ++i) {
+            put(hand(), {0.0, 0.1 - 1e-3 * 0.33 * i, 0.0}, Quat(1.0, 0.0, 0.0, 0.0));
+            tick();
+        }
+        ticks(500);
     }
-    places.ticks(500);
+};
+
+TEST(FarPresence, AToolThatIsFreedLeavesGently) {
+    PressingTool places;
     Watch watch(places, true);
     ASSERT_GT(watch.force(), 1.0);
     places.near.session.remove_tool(0);
@@ -254,16 +260,7 @@ TEST(FarPresence, AFarPointerThatIsAddedLaterIsWhereTheHandIs) {
 }
 
 TEST(FarPresence, AFarToolThatIsAddedAgainComesBackFromWhereItWas) {
-    LinkedTools places(0.05);
-    places.add(floor_of(0.5));
-    places.settle();
-    put(places.hand(), {0.0, 0.1, 0.0}, Quat(1.0, 0.0, 0.0, 0.0));
-    places.ticks(300);
-    for (int i = 0; i < 300; ++i) {
-        put(places.hand(), {0.0, 0.1 - 1e-3 * 0.33 * i, 0.0}, Quat(1.0, 0.0, 0.0, 0.0));
-        places.tick();
-    }
-    places.ticks(500);
+    PressingTool places;
     Watch watch(places, true);
     const double before = watch.force();
     ASSERT_GT(before, 1.0);

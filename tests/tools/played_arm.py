@@ -1,4 +1,4 @@
-"""Leads the arm of scenario 3 in MuJoCo by itself, above a ground and into it, and prints what came of it. Runs in MuJoCo's
+"""Leads the arm of scenario 3 in MuJoCo by itself, above a ground and into it, and prints the result. Runs in MuJoCo's
 virtual environment (test_mujoco_robot.py).
 """
 

@@ -49,7 +49,7 @@ class Case:
 		return 0.5 * mass() * mass_factor * (1.0 + hidden) * speed * speed
 
 
-## What came of it: a row of `forces` for each tick, of all hands one after the other.
+## The result of a case: a row of `forces` for each tick, of all hands one after the other.
 class Played:
 	var forces: Array[PackedVector3Array] = []
 	var energy_created := 0.0
