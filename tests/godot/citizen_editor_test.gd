@@ -2,6 +2,10 @@
 extends "test_case.gd"
 ## A scene that the real editor plays, and what its dock shows of it.
 
+const SeenWords := preload("seen_words.gd")
+## As in the pictures of the documents.
+const SIZE := Vector2i(1440, 900)
+
 
 func _dock() -> Control:
 	for control: Node in EditorInterface.get_base_control().find_children("*", "Container", true, false):
@@ -27,6 +31,7 @@ func test_the_dock_shows_a_scene_that_is_played() -> void:
 	check(dock != null, "there is no dock")
 	if dock == null:
 		return
+	get_tree().root.size = SIZE
 	for is_early: bool in [true, false]:
 		EditorInterface.play_custom_scene("res://gallery/stack/stack.tscn")
 		check(EditorInterface.is_playing_scene(), "nothing is played")
@@ -38,6 +43,11 @@ func test_the_dock_shows_a_scene_that_is_played() -> void:
 		var panel: Control = dock.get_node("%Panel")
 		var shows := func() -> bool: return panel.visible and panel.get_node("%Said").text.contains("bodies")
 		check(await until(shows, 60.0), "the dock stays empty (looked at early: %s)" % is_early)
+		var has_counted := func() -> bool: return (panel.get_node("%Periods") as Control).visible
+		check(await until(has_counted, 60.0), "there is no histogram")
+		await frames(4)
+		for found in SeenWords.faults(panel):
+			check(false, "%s (the panel is %s)" % [found, panel.size])
 		EditorInterface.stop_playing_scene()
 		await until(func() -> bool: return not panel.visible, 10.0)
 

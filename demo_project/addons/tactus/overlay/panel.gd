@@ -67,9 +67,8 @@ func show_histograms(histograms: Dictionary) -> void:
 
 func clear() -> void:
 	_counted.clear()
-	for plot: Control in [%Rate, %Work, %Force, %Energy, %Link, %Moved, %Noticed]:
+	for plot: Control in [%Rate, %Work, %Periods, %Force, %Energy, %Link, %Moved, %Noticed]:
 		plot.clear()
-	%Periods.hide()
 	%Said.text = ""
 
 

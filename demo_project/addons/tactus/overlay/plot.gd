@@ -72,18 +72,27 @@ static func in_short(value: float) -> String:
 
 ## All that is written, from top to bottom: {text, at (its baseline), color}, its texts within the width.
 func words() -> Array[Dictionary]:
-	var written: Array[Dictionary] = []
-	var place := Vector2(MARGIN, LINE - 2)
 	var scale_ends := _scale_ends()
-	var head := "%s   %s … %s %s" % [title, in_short(scale_ends.x), in_short(scale_ends.y), unit]
-	written.append({text = _shortened(head, ""), at = place, color = WORDS})
+	var written := _head("%s … %s %s" % [in_short(scale_ends.x), in_short(scale_ends.y), unit])
+	var heads := written.size()
+	var place: Vector2 = written[-1].at
 	for curve: String in _values:
 		var legend := _shortened(curve, " " + in_short(_values[curve][-1]))
 		var wide := _width_of(legend)
-		if written.size() == 1 or place.x + wide > size.x - MARGIN:
+		if written.size() == heads or place.x + wide > size.x - MARGIN:
 			place = Vector2(MARGIN, place.y + LINE)
-		written.append({text = legend, at = place, color = COLORS[(written.size() - 1) % COLORS.size()]})
+		written.append({text = legend, at = place, color = COLORS[(written.size() - heads) % COLORS.size()]})
 		place.x += wide + 2 * MARGIN
+	return written
+
+
+## The title and the scale, in two lines where one would be wider than the plot.
+func _head(scale_text: String) -> Array[Dictionary]:
+	var written: Array[Dictionary] = []
+	var whole := "%s   %s" % [title, scale_text]
+	var lines := [whole] if _width_of(whole) <= size.x - 2 * MARGIN else [title, scale_text]
+	for line: String in lines:
+		written.append({text = line, at = Vector2(MARGIN, (written.size() + 1) * LINE - 2), color = WORDS})
 	return written
 
 
