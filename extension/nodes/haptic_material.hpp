@@ -59,7 +59,7 @@ private:
 
     MaterialValues values() const { return {touch_, get_friction(), get_bounce()}; }
 
-    TouchMaterial touch_;
+    TouchMaterial touch_ = MaterialValues().touch;
     PresetChoice choice_;
     godot::Ref<godot::Texture2D> texture_;
     godot::Ref<godot::Texture2D> friction_;

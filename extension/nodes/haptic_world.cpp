@@ -111,6 +111,7 @@ BodyDefaults HapticWorld::body_defaults() const {
     BodyDefaults defaults;
     defaults.linear_damping = project_number("physics/3d/default_linear_damp", defaults.linear_damping);
     defaults.angular_damping = project_number("physics/3d/default_angular_damp", defaults.angular_damping);
+    defaults.touch = MaterialValues().touch;
     if (default_material_.is_valid()) {
         defaults.touch = default_material_->touch();
         defaults.detail = default_material_->detail();

@@ -25,7 +25,7 @@ enum class MaterialPreset : std::uint8_t {
 };
 
 struct MaterialValues {
-    TouchMaterial touch;
+    TouchMaterial touch{.static_friction = 0.4, .dynamic_friction = 0.3};  // as most dry surfaces, not as ice
     double friction = 1.0;  // between bodies, as Godot's PhysicsMaterial has it
     double bounce = 0.0;
 };

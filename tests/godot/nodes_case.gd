@@ -22,9 +22,12 @@ func add_scene(scene_path: String) -> Node:
 	return scene
 
 
+## Without friction.
 func material(stiffness: float) -> HapticMaterial:
 	var result := HapticMaterial.new()
 	result.stiffness = stiffness
+	result.static_friction = 0.0
+	result.dynamic_friction = 0.0
 	return result
 
 

@@ -116,6 +116,20 @@ func test_a_friction_image_makes_a_surface_slippery() -> void:
 	check_near(proxy.get_force().x, -0.25 * 0.8 * 5.0, 2e-2, "a quarter of the friction")
 
 
+## Of a body without a material, and of a new material.
+func test_no_surface_is_ice_until_it_is_asked_to_be() -> void:
+	for look: HapticMaterial in [null, HapticMaterial.new()]:
+		var world := add_world()
+		add_floor(world).physics_material_override = look
+		var way := path(Vector3.ZERO, Vector3.ZERO)
+		way.points_positions = PackedVector3Array([Vector3(0, 0.05, 0), Vector3.ZERO, Vector3(0.4, 0, 0)])
+		way.points_times = PackedFloat64Array([0.0, 0.2, 1.2])
+		var proxy := add_hand(world, way)
+		world.advance(1.0)
+		var force := proxy.get_force()
+		check_near(-force.x / force.y, 0.3, 0.01, "friction of %s while it slides" % look)
+
+
 func test_what_cannot_be_felt_is_said() -> void:
 	var touched := HapticMesh.new()
 	touched.mesh = _halves(false)
