@@ -248,10 +248,11 @@ class ClassTable:
             text = ",".join(f"{self.label(c)}:{c.get('value')}" for c in self.enumerators(enum))
             usage += " | PROPERTY_USAGE_CLASS_IS_" + ("BITFIELD" if element.get("is_bitfield") else "ENUM")
             class_name = enum
+        suffix = f"suffix:{element.get('unit')}" if self.has_room_for_unit(element) else ""
         if range_ := element.get("range"):
-            hint, text = "RANGE", range_ + (f",suffix:{element.get('unit')}" if element.get("unit") else "")
-        elif element.get("unit"):
-            text = f"suffix:{element.get('unit')}"
+            hint, text = "RANGE", ",".join(filter(None, (range_, suffix)))
+        else:
+            text = text or suffix
         if explicit := element.get("hint"):
             hint, _, text = explicit.partition(":")
         if stored := element.get("usage"):
@@ -259,6 +260,12 @@ class ClassTable:
         usage = f"static_cast<uint32_t>({usage})" if "|" in usage else usage
         last = f", {quoted(text)}, {usage}, {quoted(class_name)}"
         return f"PropertyInfo(Variant::{variant}, {name}, PROPERTY_HINT_{hint}{last})"
+
+    @staticmethod
+    def has_room_for_unit(element):
+        """The inspector cuts a long one off beside each of three numbers; the description has it as well."""
+        unit = element.get("unit", "")
+        return unit and (element.get("type") != "Vector3" or len(unit) <= 2)
 
     def label(self, constant):
         """What the inspector shows. Godot takes the list apart at its commas, and each entry at its colon."""

@@ -70,6 +70,13 @@ def test_a_range_is_said_with_its_unit():
     assert "[b]Range:[/b] 0 to 10 s." in table.help().decode()
 
 
+def test_a_unit_that_the_inspector_would_cut_is_left_to_the_description():
+    sources = {table.name: table.source() for table in TABLES if table.is_bound()}
+    assert 'PropertyInfo(Variant::VECTOR3, "gravity", PROPERTY_HINT_NONE, ""' in sources["HapticWorld"]
+    assert 'PropertyInfo(Variant::VECTOR3, "applied_torque", PROPERTY_HINT_NONE, ""' in sources["HapticDevice"]
+    assert 'PropertyInfo(Variant::VECTOR3, "applied_force", PROPERTY_HINT_NONE, "suffix:N"' in sources["HapticDevice"]
+
+
 def test_what_is_not_shown_is_still_stored():
     table = next(table for table in TABLES if table.name == "HapticPath")
     for name, form in (("circle_radius", "FORM_CIRCLE_WAVE"), ("points_loop", "FORM_POINTS")):
