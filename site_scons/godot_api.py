@@ -63,9 +63,8 @@ def defines(target, system):
     return common + (["DEBUG_ENABLED", "HOT_RELOAD_ENABLED"] if target == "template_debug" else [])
 
 
-def generated(api):
+def generated(api, output):
     """Runs the generator when the engine's API, the generator or the classes in use have changed."""
-    output = Path("build/binding")
     inputs = [api / "extension_api.json", api / "gdextension_interface.h", *sorted(BINDING.rglob("*.py"))]
     inputs += sorted(path for path in BINDING.rglob("*") if path.suffix in (".txt", ".inc"))
     inputs += sorted(path for folder in ("nodes", "binding") for path in Path("extension", folder).rglob("*.[hc]pp"))

@@ -1,5 +1,6 @@
-"""./run addon [--platform=NAME,…] [--all]: one archive of the addon, to be unzipped into any Godot project:
-build/addon/tactus-VERSION.zip. It has the libraries of this machine's platform, and of those named or all.
+"""./run addon [--platform=NAME,…] [--all] [--godot=VERSION]: one archive of the addon, to be unzipped into any Godot project:
+build/addon/tactus-VERSION.zip. It has the libraries of this machine's platform, and of those named or all. They are built
+against the interface of this machine's Godot, or of an older one.
 """
 
 import re
@@ -12,7 +13,7 @@ import asset_library
 import build
 import entry
 import shipped_library
-from setup import cache, cross, godot, jolt, platforms, zig
+from setup import cache, godot, interfaces, jolt, platforms, zig
 from setup.platforms import Platform
 
 sys.path.insert(0, str(cache.clone() / "site_scons"))
@@ -44,18 +45,19 @@ def version() -> str:
     return found[1]
 
 
-def archive() -> Path:
-    return STAGE / f"tactus-{version()}.zip"
+def archive(other_godot: str = "") -> Path:
+    return STAGE / f"tactus-{version()}{f'-godot-{other_godot}' if other_godot else ''}.zip"
 
 
-def pack(others: list[Platform] | None = None) -> Path:
-    """`others`: platforms besides this machine's own, whose libraries are built already. Beside it lies the asset library's entry."""
-    content = contents(others or [])
+def pack(others: list[Platform] | None = None, other_godot: str = "") -> Path:
+    """`others`: platforms besides this machine's own. `other_godot`: whose interface is meant, where it is not that of this
+    machine's Godot. The libraries are built already. Beside the archive lies the asset library's entry."""
+    content = contents(others or [], other_godot)
     oldest_godot = _written(content["tactus.gdextension"].decode())[0]
     with cache.replacing(STAGE) as fresh:
-        _write(content, fresh / archive().name)
+        _write(content, fresh / archive(other_godot).name)
         asset_library.write(fresh, version(), oldest_godot)
-    return archive()
+    return archive(other_godot)
 
 
 def _write(content: dict[str, bytes], target: Path) -> None:
@@ -67,59 +69,65 @@ def _write(content: dict[str, bytes], target: Path) -> None:
             file.writestr(one, data)
 
 
-def contents(others: list[Platform]) -> dict[str, bytes]:
+def contents(others: list[Platform], other_godot: str = "") -> dict[str, bytes]:
     """Path below the addon's folder → bytes."""
     found = {}
+    own = {manifest.library(platforms.host(), target) for target in manifest.TARGETS.values()}  # those that are meant are named below
     for path in sorted(FOLDER.rglob("*")):
         # What Godot imports into this project, it imports anew into another one.
-        if path.is_file() and path.suffix != ".import" and ".partial" not in path.name:
+        if path.is_file() and path.suffix != ".import" and ".partial" not in path.name and path.name not in own:
             found[str(path.relative_to(FOLDER))] = path.read_bytes()
     clone = cache.clone()
     for platform in platforms.given_away([platforms.host(), *others]):
-        for library in built(platform):
+        for library in built(platform, other_godot):
             if complaint := shipped_library.read(library, platform).complaint(platform.system):
                 raise RuntimeError(f"{library.name} {complaint}")
             found[f"bin/{library.name}"] = library.read_bytes()
-    description = _description(others)
+    description = _description(others, other_godot)
     found["tactus.gdextension"] = description.encode()
     if missing := [name for name in _libraries(description) if name not in found]:
-        raise RuntimeError(f"not built yet: {', '.join(missing)}. ./run setup builds this machine's, ./run addon --platform=NAME others")
-    found["README.md"] = (clone / "docs/addon.md").read_bytes()
+        raise RuntimeError(f"not built yet: {', '.join(missing)}. ./run setup builds this machine's, ./run addon --platform=NAME and --godot=VERSION others")
+    readme = (clone / "docs/addon.md").read_text()
+    found["README.md"] = readme.replace("Godot 4.6 or newer", f"Godot {_written(description)[0]} or newer").encode()
     for name in ("LICENSE", "CHANGELOG.md"):
         found[name] = (clone / name).read_bytes()
     found["NOTICES.txt"] = notices([platforms.host(), *others]).encode()
     return found
 
 
-def built(platform: Platform) -> list[Path]:
+def built(platform: Platform, other_godot: str = "") -> list[Path]:
     """The platform's libraries, as far as there are any."""
     if platform.architecture == platforms.UNIVERSAL:
-        return _joined(platform)
-
-    def place(target: str) -> Path:
-        variant = cache.clone() / "build" / cache.variant(target, foreign=platform.name)
-        return (variant if platform.is_foreign else FOLDER) / "bin" / manifest.library(platform, target)
-
-    return [library for library in map(place, manifest.TARGETS.values()) if library.is_file()]
+        return _joined(platform, other_godot)
+    made = [_place(platform, target, other_godot) for target in manifest.TARGETS.values()]
+    return [library for library in made if library.is_file()]
 
 
-def _joined(platform: Platform) -> list[Path]:
+def _place(platform: Platform, target: str, other_godot: str) -> Path:
+    """Where the build leaves a library."""
+    variant = cache.variant(target, foreign=platform.name if platform.is_foreign else "", godot=other_godot)
+    folder = cache.clone() / "build" / variant if platform.is_foreign or other_godot else FOLDER
+    return folder / "bin" / manifest.library(platform, target)
+
+
+def _joined(platform: Platform, other_godot: str) -> list[Path]:
     """The universal libraries, each joined of its slices where all are built."""
     made = []
     for target in manifest.TARGETS.values():
-        slices = [library for one in platforms.FOREIGN if one.system == platform.system for library in built(one) if target in library.name]
+        of_system = [one for one in platforms.FOREIGN if one.system == platform.system]
+        slices = [library for one in of_system for library in built(one, other_godot) if target in library.name]
         if len(slices) == len(platforms.ARCHITECTURES):
-            made.append(cache.clone() / "build" / cache.variant(target, foreign=platform.name) / "bin" / manifest.library(platform, target))
+            made.append(_place(platform, target, other_godot))
             made[-1].parent.mkdir(parents=True, exist_ok=True)
             subprocess.run([zig.llvm("llvm-lipo"), "-create", *slices, "-output", made[-1]], check=True)
     return made
 
 
-def _description(others: list[Platform]) -> str:
+def _description(others: list[Platform], other_godot: str) -> str:
     """tactus.gdextension as this machine's build has written it, for the other platforms as well."""
     minimum, precision = _written((FOLDER / "tactus.gdextension").read_text())
     seeing = [platforms.host()] if has_eyes() else []
-    return manifest.text(minimum, precision, platforms.given_away([platforms.host(), *others]), seeing)
+    return manifest.text(other_godot or minimum, precision, platforms.given_away([platforms.host(), *others]), seeing)
 
 
 def _written(description: str) -> tuple[str, str]:
@@ -172,15 +180,17 @@ def _first_comment(header: Path | None) -> str:
 
 def main(arguments: list[str]) -> int:
     others = platforms.named_in(arguments)
-    for platform in others:
+    other_godot = next((word.partition("=")[2] for word in arguments if word.startswith("--godot=")), "")
+    interface = [f"interface={interfaces.folder(other_godot)}"] if other_godot else []
+    for platform in [*([platforms.host()] if other_godot else []), *others]:
         for target in manifest.TARGETS.values():
             print(f"Building {target} for {platform.name} … ", end="", flush=True)
-            build.build(target, "extension", f"platform={platform.name}")
+            build.build(target, "extension", f"platform={platform.name}", *interface)
             print("done", flush=True)
-    path = pack(others)
+    path = pack(others, other_godot)
     print(f"{cache.shown(path)}: {path.stat().st_size / 1e6:.1f} MB, for")
     for platform in platforms.given_away([platforms.host(), *others]):
-        for library in built(platform):
+        for library in built(platform, other_godot):
             glibc = shipped_library.read(library, platform).glibc
             print(f"  {library.name}" + (f", from glibc {glibc} on" if glibc else ""))
     return 0

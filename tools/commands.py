@@ -15,7 +15,7 @@ import absent
 import bench
 from arguments import Command, Given, Option, choose
 from measuring.options import Refused, parse
-from setup import cache, platforms
+from setup import cache, interfaces, platforms
 
 sys.path.insert(0, str(cache.clone() / "site_scons"))
 import toolchain  # noqa: E402
@@ -211,6 +211,10 @@ def _platforms(value: str) -> None:
         choose(name, platforms.names(), "platform")
 
 
+def _older_godot(value: str) -> None:
+    choose(value, interfaces.VERSIONS, "Godot")
+
+
 TABLE = (
     Command(
         "setup",
@@ -294,8 +298,9 @@ TABLE = (
         [
             ("[--platform=NAME,…]", "one archive to unzip into any Godot project, in build/addon/"),
             ("--all", "the same with libraries for every platform that there is a cross compiler for: Windows, ARM Linux, macOS"),
+            ("--godot=VERSION", "the same for an older Godot and all newer ones"),
         ],
-        options=lambda _: [Option("--platform", "NAME,…", _platforms), Option("--all")],
+        options=lambda _: [Option("--platform", "NAME,…", _platforms), Option("--all"), Option("--godot", "VERSION", _older_godot)],
     ),
 )
 BY_NAME = {command.name: command for command in TABLE}

@@ -80,12 +80,14 @@ def needed(name: str, given: Given) -> list[Step]:
     if given.has("--with-sensing") or (name == "bench" and "sensing" in given.words and pcl.can_fetch()):
         plan.append(Step("PCL's headers", pcl.is_ready, pcl.fetch_headers))
     if name in ("bench", "test") or given.has("--figures"):
-        return [*plan, steps.checkers(), steps.export_template()] if name == "test" and not given.has("--sanitize") else plan
+        return [*plan, steps.checkers(), steps.older_interfaces(), steps.export_template()] if name == "test" and not given.has("--sanitize") else plan
     # Eyes where a scene may ask for them; the demo's do not.
     eyes = () if name == "demo" or (name == "experiment" and "scenario5" not in given.words) else ("sensing",)
     debug, release = build.step("template_debug", *eyes), build.step("template_release", *eyes)
     imported = project.import_step()
     plan += steps.of_platforms(_others(given))
+    if given.has("--godot"):
+        plan.append(steps.older_interfaces())
     if name in ("setup", "export", "addon", "proof"):
         return [*plan, steps.export_template(), debug, release, imported]
     return [*plan, debug, imported, *([project.help_step()] if name == "edit" else [])]

@@ -2,6 +2,7 @@
 
 import contextlib
 import io
+import json
 import re
 import shutil
 import struct
@@ -13,7 +14,7 @@ import addon
 import project
 import pytest
 import shipped_library
-from setup import cache, godot, platforms
+from setup import cache, godot, interfaces, platforms
 
 # The scene of docs/addon.md, by its five steps.
 FIRST_TOUCH = """[gd_scene format=3]
@@ -158,9 +159,12 @@ def archive() -> bytes:
 
 @pytest.fixture(scope="module")
 def own_project(archive, tmp_path_factory):
+    return project_with(archive, tmp_path_factory.mktemp("own_project"))
+
+
+def project_with(archive: bytes, folder: Path) -> Path:
     """An empty project with the archive unzipped into it and the scene of its README, imported without a list of
     extensions written first: as the editor does it."""
-    folder = tmp_path_factory.mktemp("own_project")
     with zipfile.ZipFile(io.BytesIO(archive)) as files:
         files.extractall(folder)
     (folder / "project.godot").write_text(PROJECT + '\n[autoload]\n\nUser="*res://user.gd"\n')
@@ -209,9 +213,50 @@ def test_two_archives_of_the_same_are_the_same_bytes(archive):
 
 def test_a_platform_that_was_not_built_is_named(monkeypatch):
     built = addon.built
-    monkeypatch.setattr(addon, "built", lambda platform: [] if platform.is_foreign else built(platform))
+    monkeypatch.setattr(addon, "built", lambda platform, other_godot: [] if platform.is_foreign else built(platform, other_godot))
     with pytest.raises(RuntimeError, match=r"not built yet: bin/libtactus\.windows\.template_debug.*./run addon --platform"):
         addon.pack([platforms.named("windows")])
+
+
+def test_an_archive_for_an_older_godot_is_felt_in_this_one(tmp_path):
+    (version,) = interfaces.VERSIONS
+    if len(addon.built(platforms.host(), version)) < len(addon.manifest.TARGETS):
+        pytest.skip(f"not built here: ./run addon --godot={version} builds it")
+    path = addon.pack(other_godot=version)
+    assert path.name == f"tactus-{addon.version()}-godot-{version}.zip"
+    folder = project_with(path.read_bytes(), tmp_path)
+    assert f'compatibility_minimum = "{version}"' in (folder / "addons/tactus/tactus.gdextension").read_text()
+    assert f"Godot {version} or newer" in (folder / "addons/tactus/README.md").read_text()
+    printed = godot_in(folder, "res://start.tscn")
+    assert "FIRST TOUCH true true 0.06" in printed, printed
+
+
+def test_libraries_for_an_older_godot_that_were_not_built_are_named():
+    with pytest.raises(RuntimeError, match=r"not built yet: bin/libtactus\.linux.*--godot=VERSION"):
+        addon.pack(other_godot="4.0")
+
+
+def test_the_published_pointers_are_to_void():
+    header = "typedef const struct __GdextVariant *GDExtensionConstVariantPtr;\nstruct Own *own;\n"
+    assert interfaces.as_published(header) == "typedef const void *GDExtensionConstVariantPtr;\nstruct Own *own;\n"
+
+
+def names_in(part: object) -> set[str]:
+    """All that a part of an extension_api.json gives a name, but parameters."""
+    if isinstance(part, list):
+        return set().union(*map(names_in, part))
+    if not isinstance(part, dict):
+        return set()
+    return {str(part.get("name"))}.union(*(names_in(inner) for key, inner in part.items() if key != "arguments"))
+
+
+def test_the_addons_scripts_name_nothing_that_the_oldest_godot_lacks():
+    folders = (godot.api_folder(str(godot.command())), interfaces.folder("4.4"))
+    here, there = (names_in(json.loads((folder / "extension_api.json").read_text())) for folder in folders)
+    newer = here - there
+    assert "EditorDock" in newer
+    for path in [path for path in addon.FOLDER.rglob("*") if path.suffix in (".gd", ".tscn")]:
+        assert set(re.findall(r"\w+", path.read_text())) & newer == set(), path
 
 
 def test_what_windows_libraries_contain_besides_has_its_licence():

@@ -97,9 +97,11 @@ def _exchange(fresh: Path, folder: Path) -> None:
         shutil.move(path, folder / path.name)
 
 
-def variant(target: str, sanitizers: str = "", foreign: str = "") -> str:
-    """The folder in build/: what sanitizers watch, and what another platform runs, share nothing with the rest."""
-    return ".".join(part for part in (target, foreign, sanitizers.replace(",", "_")) if part)
+def variant(target: str, sanitizers: str = "", foreign: str = "", godot: str = "") -> str:
+    """The folder in build/: what sanitizers watch, and what another platform runs, share nothing with the rest; of what is
+    built against the interface of another `godot`, only what depends on it has a folder of its own."""
+    parts = (target, foreign, sanitizers.replace(",", "_"), f"godot-{godot}" if godot else "")
+    return ".".join(part for part in parts if part)
 
 
 def shown(path: Path) -> str:

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import entry
 
-from . import cache, cross, godot, jolt, python_tools, zig
+from . import cache, cross, godot, interfaces, jolt, python_tools, zig
 from .platforms import Platform
 
 
@@ -58,6 +58,10 @@ def of_platforms(platforms: list[Platform]) -> list[Step]:
             )
         )
     return steps
+
+
+def older_interfaces() -> Step:
+    return Step("Interface of Godot 4.4", interfaces.is_ready, interfaces.fetch, alone=True)
 
 
 def export_template() -> Step:
