@@ -8,26 +8,27 @@ import numpy as np
 import pytest
 
 from experiments import scenario3
-from measuring import mujoco_runs, teleop_runs
+from measuring import robot_runs, teleop_runs
 from measuring.teleop_scene import Scene
 from setup import fetching, python_tools
 
 
 def test_static_bodies_of_a_scene_are_those_of_the_place():
-    ground, sphere = mujoco_runs.bodies_of(Scene("res://gallery/static_testbed/static_testbed.tscn"))
+    ground, sphere = robot_runs.bodies_of(Scene("res://gallery/static_testbed/static_testbed.tscn"))
     assert ground == {"kind": "box", "size": [0.5, 0.05, 0.5], "at": [0.0, -0.05, 0.0], "friction": 0.2}
     assert sphere == {"kind": "sphere", "size": [0.06], "at": [-0.106, 0.03, 0.1575], "friction": 0.2}
     with pytest.raises(ValueError, match="Box: only static bodies"):
-        mujoco_runs.bodies_of(Scene("res://gallery/dynamic_testbed/dynamic_testbed.tscn"))
+        robot_runs.bodies_of(Scene("res://gallery/dynamic_testbed/dynamic_testbed.tscn"))
 
 
-def test_without_the_package_it_is_skipped_with_advice(monkeypatch, capsys, tmp_path):
+@pytest.mark.parametrize("robot", ["mujoco", "franka"])
+def test_without_the_package_it_is_skipped_with_advice(monkeypatch, capsys, tmp_path, robot):
     def unreachable(_: str) -> None:
         raise fetching.Unreachable("pip cannot reach its server. Connect this machine.")
 
     monkeypatch.setattr(python_tools, "is_done", lambda _: False)
     monkeypatch.setattr(python_tools, "install", unreachable)
-    summary = scenario3.run({"robot": "mujoco"}, tmp_path)
+    summary = scenario3.run({"robot": robot}, tmp_path)
     assert list(summary) == ["skipped"]
     assert "skipped: pip cannot reach its server. Connect this machine." in capsys.readouterr().out
 
@@ -56,7 +57,7 @@ def test_arm_follows_presses_and_feels():
 def test_operator_feels_what_mujoco_does():
     """The arm's momentum throws the hand off the ground, also without a delay; the controller keeps the link passive and contact."""
     settings = scenario3.Settings(seconds=3.0, delay=(0, 100), robot="mujoco")
-    found = mujoco_runs.run(scenario3.mujoco_cases(teleop_runs.description("scenario3"), settings))
+    found = robot_runs.run("mujoco", scenario3.simulated_cases(teleop_runs.description("scenario3"), settings))
     names = (".0", ".100", "_time_domain.0", "_time_domain.100")
     at_once, late, controlled_at_once, controlled = (found[f"mujoco_robot{name}ms"] for name in names)
     assert 0.01 < at_once["contact_share"] == pytest.approx(at_once["direct_contact_share"], abs=0.02)

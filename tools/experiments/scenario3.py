@@ -1,23 +1,26 @@
 """Scenario 3: the operator's hand moves a robot in a real place, and feels what the robot runs into (thesis 4.4.1).
 
-    ./run experiment scenario3 [--seconds=10] [--delay=0,25,50,100,200] [--robot=mujoco]
+    ./run experiment scenario3 [--seconds=10] [--delay=0,25,50,100,200] [--robot=mujoco|franka]
 
 The robot is emulated (extension/devices/emulated_robot.hpp): a delta arm with a Falcon's geometry, encoders and motors,
 friction and backlash, in a world of its own. The operator's arm means to follow a path through a ground and is pushed back.
 --robot=mujoco: the same operator, a Godot process, leads an arm with seven joints in a place that MuJoCo simulates
 (measuring/mujoco_place.py, measuring/mujoco_arm.py), over UDP and in virtual time.
+--robot=franka: the same, but the arm is led by its vendor's library over the arm's own network protocol, which a simulator plays
+(measuring/franka_place.py, measuring/franka_simulator.py).
 
 --delay     there and back (ms)
 
 traditional_robot.DELAYms.*                   round trip of so much, forces as they come
 traditional_robot_CONTROLLER.DELAYms.*        with a passivity controller at both ends
 mujoco_robot.DELAYms.*, mujoco_robot_CONTROLLER.DELAYms.*   the same in MuJoCo
+franka_robot.DELAYms.*, franka_robot_CONTROLLER.DELAYms.*   the same over the arm's protocol
 
 position_error_rms_mm   of the robot's tip from the operator's hand that it answers
 force_error_mean_N      of what the hand feels from what it would feel there itself
 energy_J                that the hand was given beyond what it had put in
 
-In MuJoCo besides, where direct contact is the same robot without a link:
+With these two besides, where direct contact is the same robot without a link:
 
 energy_at_hand_J, energy_at_robot_J   what the ports were given on balance
 link_energy_created_J   the most that both ports were given together
@@ -28,7 +31,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
-from measuring import mujoco_runs, options, rivals, teleop_processes, teleop_runs
+from measuring import options, rivals, robot_runs, teleop_processes, teleop_runs
 from measuring.teleop_scene import Scene
 
 FIGURES = {
@@ -42,7 +45,7 @@ FIGURES = {
 class Settings:
     seconds: float = options.seconds(10.0)
     delay: tuple[float, ...] = options.numbers((0, 25, 50, 100, 200), "ms", most=options.LONGEST_DELAY_MS)
-    robot: Literal["emulated", "mujoco"] = "emulated"
+    robot: Literal["emulated", "mujoco", "franka"] = "emulated"
 
 
 def cases(description: dict, settings: Settings) -> list[teleop_runs.Case]:
@@ -57,14 +60,14 @@ def cases(description: dict, settings: Settings) -> list[teleop_runs.Case]:
     ]  # fmt: skip
 
 
-def mujoco_cases(description: dict, settings: Settings) -> list[dict]:
+def simulated_cases(description: dict, settings: Settings) -> list[dict]:
     """Passivity as MMTTuning has it: 0 none, 2 time domain, both sides with its own defaults."""
     arm = {f"device.{name}": value for name, value in description["arm"].items()}
     operator = {"way": description["path"], "device.driver": teleop_processes.SIMULATED_ARM, "device.force_limit": 10, **arm}
-    bodies = mujoco_runs.bodies_of(Scene(description["scene"]))
+    bodies = robot_runs.bodies_of(Scene(description["scene"]))
     return [
         {
-            "name": f"mujoco_robot{way}.{delay:g}ms", "passivity": passivity, "delay_ms": delay, "seconds": settings.seconds,
+            "name": f"{settings.robot}_robot{way}.{delay:g}ms", "passivity": passivity, "delay_ms": delay, "seconds": settings.seconds,
             "bodies": bodies, "operator": operator,
         }
         for way, passivity in (("", 0), ("_time_domain", 2))
@@ -72,19 +75,19 @@ def mujoco_cases(description: dict, settings: Settings) -> list[dict]:
     ]  # fmt: skip
 
 
-def in_mujoco(description: dict, settings: Settings) -> dict[str, object]:
-    if advice := mujoco_runs.advice():
+def simulated(description: dict, settings: Settings) -> dict[str, object]:
+    if advice := robot_runs.advice(settings.robot):
         print(advice)
         return {"skipped": advice}
-    found = mujoco_runs.run(mujoco_cases(description, settings))
+    found = robot_runs.run(settings.robot, simulated_cases(description, settings))
     return {f"{case}.{key}": value for case, one in found.items() for key, value in one.items()}
 
 
 def run(given: dict[str, str], output: Path) -> dict[str, object]:
     settings = options.parse(Settings, given)
     description = teleop_runs.description("scenario3")
-    if settings.robot == "mujoco":
-        return in_mujoco(description, settings)
+    if settings.robot != "emulated":
+        return simulated(description, settings)
     lines = Scene(description["scene"]).along(description["path"])
     found = teleop_runs.run(description["scene"], cases(description, settings), output, lines=lines)
     return {f"{case}.{name}": one[key] for case, one in found.items() for name, key in FIGURES.items()}

@@ -1,117 +1,26 @@
-"""Scenario 3 in a place that MuJoCo simulates: reads cases as JSON from the standard input, plays each with a Godot operator in
-virtual time, and prints a line of JSON with the figures of each. Runs in MuJoCo's own virtual environment
+"""Scenario 3 in a place that MuJoCo simulates, with an arm that is led here (mujoco_arm.py). Runs in MuJoCo's own virtual environment
 (tools/credibility/requirements.txt).
-
-The robot is an arm (mujoco_arm.py) that is led to where the operator's sample is; the force of its sensor is sent to the operator.
-Direct contact is a second copy of this arm that is driven by the operator's device position of the same tick, without a link.
 """
 
-import json
 import sys
 from pathlib import Path
 
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-from measuring import peer_operator
-from measuring.mujoco_arm import TICK, Arm
-from tactus_peer import Teleoperator, messages
-
-# PassivitySettings: what a teleoperator with passivity control in the time domain spends and how it yields.
-FAR_STORE, DRIFT_RATE, LARGEST_YIELD = 0.005, 10.0, 1.0  # (units: joules, 1/seconds, meters per newton second)
+from measuring import robot_place
+from measuring.mujoco_arm import Arm
 
 
-class Yielding:
-    """The teleoperator's part of passivity control in the time domain (core/teleop/passivity.hpp)."""
+class Pair(robot_place.Pair):
+    def __init__(self, case: dict, at: np.ndarray):
+        self.robot, self.direct = Arm(case["bodies"], at), Arm(case["bodies"], at)
 
-    def __init__(self, at: np.ndarray):
-        self._hand, self._own, self._force = at.copy(), at.copy(), np.zeros(3)
-        self._in, self._out, self._sequence = 0.0, 0.0, 0
-        self.taken = 0.0  # (unit: joules)
-
-    def hand(self, sample: dict, contact: np.ndarray) -> np.ndarray:
-        hand = np.array(sample["position"])
-        if sample["sequence"] == self._sequence + 1:
-            self._in += max(0.0, -float(self._force @ (hand - self._hand)))
-        way = hand - self._hand + (self._hand - self._own) * DRIFT_RATE * TICK
-        squared, left = float(contact @ contact), self._in + FAR_STORE - self._out
-        given = -float(contact @ way)
-        if given > left and squared > 1e-12:
-            way += min((given - left) / (squared * TICK), LARGEST_YIELD) * TICK * contact
-        self._out += max(0.0, -float(contact @ way))
-        self._own = self._own + way
-        self.taken += max(0.0, float(contact @ way))
-        self._hand, self._force, self._sequence = hand, np.array(sample["force"]), sample["sequence"]
-        return self._own
-
-
-class Port:
-    """Energy that a port is given: a force is held over the displacement after it."""
-
-    def __init__(self) -> None:
-        self.total = self.created = self._contact = 0.0  # (unit: joules)
-        self._before: tuple[np.ndarray, np.ndarray] | None = None
-
-    def note(self, force: np.ndarray, at: np.ndarray) -> None:
-        if self._before is not None:
-            held, before = self._before
-            given = float(held @ (at - before))
-            self.total += given
-            self._contact = self._contact + given if np.any(held) else 0.0
-            self.created = max(self.created, self._contact)
-        self._before = force, at
-
-
-def play(case: dict) -> dict[str, float]:
-    passive = case["passivity"] == messages.TIME_DOMAIN
-    delay = round(case["delay_ms"] * 1e6 / 2)
-    with Teleoperator(0, case["port"], scenario=3, passivity=case["passivity"], delay=delay) as side:
-        options = {**case["operator"], "scenario": 3, "local_port": case["port"], "remote_port": side.port}
-        with peer_operator.Operator({**options, "tuning.passivity": case["passivity"]}) as operator:
-            peer_operator.meet(operator, side)
-            start = np.array(operator.rows[-1]["hand"])
-            robot, direct = (Arm(case["bodies"], start) for _ in range(2))
-            yielding = Yielding(start)
-            hand_port, far_port = Port(), Port()
-            rows: dict[str, list[float]] = {name: [] for name in ("place", "force", "touches", "direct_touches", "link")}
-            operator.set_out()
-            for _ in range(round(case["seconds"] / TICK)):
-                row = peer_operator.step_both(operator, side)
-                displayed, hand = np.array(row["force"]), np.array(row["hand"])
-                direct.go(hand)
-                if (sample := side.hand()) is not None:
-                    robot.go(yielding.hand(sample, robot.contact) if passive else np.array(sample["position"]))
-                    side.send_force(sample, robot.contact, robot.tip, taken=yielding.taken)
-                    peer_operator.deliver(side)
-                    rows["place"].append(float(np.linalg.norm(robot.tip - np.array(sample["position"]))))
-                hand_port.note(displayed, hand)
-                far_port.note(-robot.contact, robot.tip)
-                rows["force"].append(float(np.linalg.norm(displayed - direct.contact)))
-                rows["touches"].append(robot.touches)
-                rows["direct_touches"].append(direct.touches)
-                rows["link"].append(hand_port.total + far_port.total)
-    return {
-        "position_error_rms_mm": 1e3 * float(np.sqrt(np.mean(np.square(rows["place"])))),
-        "force_error_mean_N": float(np.mean(rows["force"])),
-        "energy_J": hand_port.created,
-        "energy_at_hand_J": hand_port.total,
-        "energy_at_robot_J": far_port.total,
-        "link_energy_created_J": max(0.0, max(rows["link"])),
-        "contact_share": float(np.mean(rows["touches"])),
-        "direct_contact_share": float(np.mean(rows["direct_touches"])),
-        "contacts": _begun(rows["touches"]),
-        "direct_contacts": _begun(rows["direct_touches"]),
-    }
-
-
-def _begun(touches: list[float]) -> int:
-    return int(np.sum(np.diff(np.array(touches, dtype=int), prepend=0) == 1))
-
-
-def main() -> None:
-    for case in json.load(sys.stdin):
-        print(json.dumps({"name": case["name"], **play(case)}), flush=True)
+    def go(self, robot: np.ndarray | None, direct: np.ndarray) -> None:
+        self.direct.go(direct)
+        if robot is not None:
+            self.robot.go(robot)
 
 
 if __name__ == "__main__":
-    main()
+    robot_place.main(Pair)

@@ -1,7 +1,8 @@
 """Python packages in virtual environments of the cache, each file checked by its hash.
 
-"venv" has SCons, the formatters, matplotlib, Dask, Sphinx and pytest; "mujoco" what the bench of credibility asks; "zig" the
-compiler for macOS; "papers" the checkers of CITATION.cff and of the workflow.
+"venv" has SCons, the formatters, matplotlib, Dask, Sphinx and pytest; "mujoco" what the bench of credibility asks; "franka" and
+"franka_simulator" the vendor's library for its arm, and what plays that arm; "zig" the compiler for macOS; "papers" the checkers of
+CITATION.cff and of the workflow.
 """
 
 import shutil
@@ -14,6 +15,8 @@ from . import cache, fetching
 REQUIREMENTS = {
     "venv": "tools/requirements.txt",
     "mujoco": "tools/credibility/requirements.txt",
+    "franka": "tools/franka/requirements.txt",
+    "franka_simulator": "tools/franka/simulator.txt",
     "zig": "tools/cross/requirements.txt",
     "papers": "tools/papers/requirements.txt",
 }

@@ -219,16 +219,17 @@ class Teleoperator:
         """The operator has every body that it has been told of, and they are ready for their states."""
         return all(self._is_ready(number) for number, told in self._told.items() if not told.is_leaving)
 
-    def send_states(self, states: list[Fields]) -> None:
+    def send_states(self, states: list[Fields], sample: int | None = None) -> None:
         """Scenarios 2, 4 and 5: where moving bodies are, each {"object", "pose", "linear_velocity", "angular_velocity"}; of those that
-        the operator does not have yet nothing is sent. What stands is sent without being asked for.
+        the operator does not have yet nothing is sent. What stands is sent without being asked for. `sample`: the newest that had been
+        applied when they were there; None: now.
         """
         ready = [state for state in states if self._is_ready(state["object"])]
         for first in range(0, len(ready), 16):
-            self._send_states(ready[first : first + 16])
+            self._send_states(ready[first : first + 16], sample)
 
-    def _send_states(self, states: list[Fields]) -> None:
-        body = {"true_at": self._now, "newest_operator_sample": self.newest_sample, "states": states}
+    def _send_states(self, states: list[Fields], sample: int | None = None) -> None:
+        body = {"true_at": self._now, "newest_operator_sample": self.newest_sample if sample is None else sample, "states": states}
         self._send("object states", body)
 
     def _is_ready(self, number: int) -> bool:
