@@ -18,6 +18,10 @@ struct DriverReading {
     Nanoseconds at = 0;  // on the steady clock
 };
 
+// Of a velocity that its maker smooths and does not say how long: as long as the mean over 20 ms, which Force
+// Dimension's is unless another window is set (unit: seconds, see DeviceCapabilities::velocity_smoothed).
+constexpr double unstated_smoothing = 0.01;
+
 class Driver {
 public:
     enum class Exchange {

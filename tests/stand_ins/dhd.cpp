@@ -36,6 +36,21 @@ void wait_while_hung() {
     }
 }
 
+// Whether it was.
+bool wait_while_overtaken(const char* function) {
+    const char* const name = device.overtaken;
+    if (name == nullptr || std::strcmp(name, function) != 0) {
+        return false;
+    }
+    const int before = device.stops;
+    while (device.stops == before) {
+        const timespec span{0, 100'000};
+        nanosleep(&span, nullptr);
+    }
+    device.overtaken = nullptr;
+    return true;
+}
+
 }  // namespace
 
 #define STAND_IN extern "C" __attribute__((visibility("default")))
@@ -52,7 +67,8 @@ STAND_IN int dhdOpenID(char id) {
     }
     device.wrong_calls += device.is_open ? 1 : 0;
     device.is_open = true;
-    device.braked = false;
+    device.braked = device.is_stale = false;
+    device.velocity_window = 20;
     return the_one;
 }
 STAND_IN int dhdClose(char id) {
@@ -70,6 +86,7 @@ STAND_IN const char* dhdGetSystemName(char id) {
     return checked(id) == 0 ? "omega.3" : nullptr;
 }
 STAND_IN int dhdEnableForce(unsigned char on, char id) {
+    device.is_stale = wait_while_overtaken("dhdEnableForce") || device.is_stale;
     device.forces_on = on != 0;
     return result_of("dhdEnableForce", id);
 }
@@ -87,13 +104,16 @@ STAND_IN int dhdGetLinearVelocity(double* x, double* y, double* z, char id) {
                                                       : -1;  // asked too soon after the last time: no error
 }
 STAND_IN int dhdSetForce(double x, double y, double z, char id) {
-    const int result = result_of("dhdSetForce", id, device.forces_on);
-    if (result == 0) {
-        tactus::stand_ins::set_force(device.force, device.most_step, x, y, z);
-        device.braked = false;
-        ++device.set_forces;
+    wait_while_overtaken("dhdSetForce");
+    const int result = result_of("dhdSetForce", id, device.forces_on || device.braked);
+    if (result != 0 || !device.forces_on) {
+        return -1;
     }
-    return result;
+    tactus::stand_ins::set_force(device.force, device.most_step, x, y, z);
+    device.braked = false;
+    ++device.set_forces;
+    device.stale_forces += device.is_stale ? 1 : 0;
+    return 0;
 }
 STAND_IN int dhdHasWrist(char id) {
     return checked(id) == 0 && device.has_wrist ? 1 : 0;
@@ -124,6 +144,11 @@ STAND_IN int dhdSetWatchdog(unsigned char time, char id) {
     device.watchdog = time;
     return checked(id);
 }
+STAND_IN int dhdConfigLinearVelocity(int window, int mode, char id) {
+    const int result = result_of("dhdConfigLinearVelocity", id, window > 0 && mode == 0);
+    device.velocity_window = result == 0 ? window : device.velocity_window.load();
+    return result;
+}
 STAND_IN unsigned dhdGetButtonMask(char id) {
     const bool leaps = device.lying.swaps_buttons();
     return checked(id) == 0 ? (leaps ? ~device.buttons.load() : device.buttons.load()) : 0u;
@@ -137,7 +162,8 @@ STAND_IN int dhdStop(char id) {
         one = 0.0;
     }
     device.braked = true;
-    device.forces_on = false;
+    device.forces_on = device.is_stale = false;
+    ++device.stops;
     return result;
 }
 STAND_IN const char* dhdErrorGetLastStr() {

@@ -101,10 +101,16 @@ struct ForceDimension {
     std::atomic<unsigned> buttons{0};
     Lying lying;
     std::atomic<const char*> fails{nullptr};  // the function that returns an error, by its name
+    // The function whose next call, by its name, comes back only after a dhdStop(), and counts all the same.
+    std::atomic<const char*> overtaken{nullptr};
     std::atomic<bool> is_open{false}, forces_on{false}, braked{false};
-    std::atomic<int> set_forces{0};
+    std::atomic<bool> is_stale{false};  // forces were switched on by such a call, and not stopped since
+    std::atomic<int> set_forces{0}, stale_forces{0}, stops{0};
+    std::atomic<int> velocity_window{20};  // (unit: milliseconds)
     std::atomic<double> most_step{0.0};  // of the force from one call to the next (unit: newtons)
-    std::atomic<int> wrong_calls{0};     // with another device, before it is open, without forces enabled
+    // With another device, before it is open, or without forces that were ever switched on. After a dhdStop(),
+    // which another thread may call, a force is refused and no more.
+    std::atomic<int> wrong_calls{0};
 };
 
 // Of libHD. One device, and a second one named "Second", of which only the force is told apart; one named

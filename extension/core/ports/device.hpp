@@ -31,7 +31,9 @@ struct DeviceCapabilities {
     double mass = 0.0;               // (unit: kilograms); 0: unknown
     double viscous = 0.0;            // friction (unit: newton seconds per meter)
     double coulomb = 0.0;            // friction (unit: newtons)
-    double velocity_smoothed = 0.0;  // DeviceSample::velocity, to first order (unit: seconds), >= 0
+    // Of DeviceSample::velocity, to first order; half of the window where it is the mean over one (unit:
+    // seconds), >= 0.
+    double velocity_smoothed = 0.0;
     double ramp = 0.0;               // until a force that begins is there (unit: seconds)
     double weight = 0.0;  // of its arm in the hand, which its motors are to carry (unit: newtons), >= 0
 

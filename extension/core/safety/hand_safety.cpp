@@ -49,8 +49,9 @@ HandState HandSafety::state_of(const SafetySettings& settings, const SafetySampl
         turned > settings.max_turn) {
         return HandState::jumped;
     }
-    // A hand that stops dead has still the smoothed velocity of a moment ago.
-    if (settings.sees_frozen && stayed_ > longest_stay + 2.0 * settings.velocity_smoothed * speed) {
+    // A hand that stops dead at the speed v has a smoothed velocity for a while: its path is s v to first
+    // order, and at most 2 s v by the mean over a window of 2 s.
+    if (settings.sees_frozen && stayed_ > longest_stay + 2.0 * settings.velocity_smoothed * stopped_) {
         return HandState::frozen;
     }
     if (!sample.enabled) {
@@ -63,8 +64,10 @@ HandState HandSafety::state_of(const SafetySettings& settings, const SafetySampl
 SafeForce HandSafety::pass(const SafetySettings& settings, const SafetySample& sample) {
     SafeForce safe;
     const bool stays = known_ && sample.position == position_;
-    const bool moves = is_hands(sample.velocity) && glm::length(sample.velocity) > resting;
-    stayed_ = stays && moves ? stayed_ + glm::length(sample.velocity) * sample.seconds : 0.0;
+    const double speed = is_hands(sample.velocity) ? glm::length(sample.velocity) : 0.0;
+    const bool seems_frozen = stays && speed > resting;
+    stayed_ = seems_frozen ? stayed_ + speed * sample.seconds : 0.0;
+    stopped_ = seems_frozen ? stopped_ : speed;
     safe.state = state_of(settings, sample);
     const bool was_known = known_;
     known_ = safe.state != HandState::disconnected && safe.state != HandState::no_number;

@@ -51,7 +51,7 @@ struct SafetySettings {
     bool passive = false;            // observe energy and keep it from being made
     double damping = 0.0;            // of the device itself (unit: newton seconds per meter), >= 0
     double max_damping = 0.0;        // that may be added (the same unit), >= 0
-    double velocity_smoothed = 0.0;  // by the device, to first order (unit: seconds), >= 0
+    double velocity_smoothed = 0.0;  // see DeviceCapabilities (unit: seconds), >= 0
     bool sees_frozen = false;        // a position that stays although the hand moves is no reading
 };
 
@@ -99,7 +99,8 @@ private:
     double ramped_ = 0.0;  // since the hand was last given nothing (unit: seconds)
     bool known_ = false;   // position_ is where the hand was one tick ago
     Vec3 position_{0.0};
-    double stayed_ = 0.0;  // the path of the velocity since the position changed last (unit: meters)
+    double stayed_ = 0.0;   // the path of the velocity since the position changed last (unit: meters)
+    double stopped_ = 0.0;  // the speed that it said then (unit: meters per second)
     Vec3 given_{0.0};      // in the last tick
     double work_ = 0.0;
     Quat rotation_{1.0, 0.0, 0.0, 0.0};

@@ -12,6 +12,20 @@ namespace tactus {
 namespace {
 
 constexpr int type_falcon = 60;
+
+// The library's velocity is the mean over a window of time, the distance between its ends over its length:
+// 20 ms unless another one is set (unit: milliseconds).
+constexpr int windowing = 0;
+constexpr int usual_window = 20;
+// A Falcon's encoders have steps of 38 um at the hand, the others of 10 um and less.
+constexpr int falcon_window = 8;
+constexpr int fine_window = 2;
+
+// A mean over a window is as late as a first-order filter with half of it (unit: seconds).
+constexpr double smoothed_by(int window) {
+    return 0.5e-3 * window;
+}
+
 // Between two readings while no loop writes (unit: nanoseconds).
 constexpr Nanoseconds idle_period = 1'000'000;
 
@@ -72,6 +86,7 @@ std::string ForceDimensionDriver::load() {
         {"dhdStop", dhd_.stop},
     });
     library_.find({{"dhdSetWatchdog", set_watchdog_}});
+    library_.find({{"dhdConfigLinearVelocity", set_velocity_window_}});
     library_.find({
         {"dhdHasWrist", wrist_.has_wrist},
         {"dhdHasActiveWrist", wrist_.has_active_wrist},
@@ -130,22 +145,51 @@ std::string ForceDimensionDriver::open_one(int index) {
     is_watched_ = set_watchdog_ != nullptr && !failed(set_watchdog_(watchdog_time, device_));
     turns_ = wrist_.has_wrist != nullptr && wrist_.has_wrist(device_) > 0;
     twists_ = turns_ && wrist_.has_active_wrist(device_) > 0;
+    set_velocity_window();
     read_at_ = set_at_ = monotonic_now();
-    is_stopped_ = false;
+    enabled_after_ = stops_.load(std::memory_order_relaxed);
     return {};
 }
 
+void ForceDimensionDriver::set_velocity_window() {
+    const int window = type_ == type_falcon ? falcon_window : fine_window;
+    const bool is_set =
+        set_velocity_window_ != nullptr && !failed(set_velocity_window_(window, windowing, device_));
+    velocity_smoothed_ = smoothed_by(is_set ? window : usual_window);
+}
+
 bool ForceDimensionDriver::set(const Vec3& force, const Vec3& torque) {
-    const Nanoseconds now = monotonic_now();
-    // dhdStop() has switched the forces off, or its firmware may have, meanwhile.
-    if (is_stopped_.exchange(false, std::memory_order_acq_rel) ||
-        (is_watched_ && now - set_at_ >= let_go_after)) {
-        dhd_.enable_force(1, device_);
-    }
-    set_at_ = now;
+    set_at_ = monotonic_now();
     return !failed(twists_
                        ? wrist_.set_all(force.z, force.x, force.y, torque.z, torque.x, torque.y, 0.0, device_)
                        : dhd_.set_force(force.z, force.x, force.y, device_));
+}
+
+// The watchdog's dhdStop() may come at any moment. A force that was looked up before it is not given after
+// it: the library refuses it, which is no loss of the device, or it is taken away again where the forces were
+// being switched on meanwhile. The next one begins at nothing.
+bool ForceDimensionDriver::send(ForceSlot& forces) {
+    const unsigned stops = stops_.load(std::memory_order_acquire);
+    if (stops != enabled_after_) {
+        forces.taken();
+    }
+    const Nanoseconds now = monotonic_now();
+    const Vec3 force = forces.living(now);
+    if (stops % 2 != 0) {
+        return true;
+    }
+    // They are off after dhdStop(), or its firmware may have switched them off.
+    if (stops != enabled_after_ || (is_watched_ && now - set_at_ >= let_go_after)) {
+        dhd_.enable_force(1, device_);
+        enabled_after_ = stops;
+    }
+    const bool is_set = set(force, forces.torque());
+    if (stops_.load(std::memory_order_acquire) != stops) {
+        dhd_.stop(device_);
+        return true;
+    }
+    forces.given(monotonic_now());
+    return is_set;
 }
 
 void ForceDimensionDriver::close() {
@@ -161,11 +205,9 @@ void ForceDimensionDriver::close() {
 Driver::Exchange ForceDimensionDriver::exchange(ForceSlot& forces, Nanoseconds until,
                                                 DriverReading& reading) {
     forces.wait_for_write(std::min(until, forces.end() != 0 ? forces.end() + 1 : read_at_ + idle_period));
-    const Vec3 force = forces.living(monotonic_now());
-    if (!set(force, forces.torque())) {
+    if (!send(forces)) {
         return lost();
     }
-    forces.given(monotonic_now());
     timer_.sleep_until(std::min(until, forces.next_reading()));
     reading.at = read_at_ = monotonic_now();
     return read(reading.sample) ? Exchange::reading : lost();
@@ -197,8 +239,9 @@ bool ForceDimensionDriver::read(DeviceSample& sample) {
 
 // Brakes, and no force.
 void ForceDimensionDriver::let_go() {
+    stops_.fetch_add(1, std::memory_order_acq_rel);
     dhd_.stop(device_);
-    is_stopped_.store(true, std::memory_order_release);
+    stops_.fetch_add(1, std::memory_order_acq_rel);
 }
 
 // What the library does not tell is held to what the smallest of its devices can do.
@@ -209,6 +252,7 @@ DeviceCapabilities ForceDimensionDriver::capabilities() const {
         device.max_force = 12.0;
         device.damping = 3.0;
     }
+    device.velocity_smoothed = velocity_smoothed_;
     device.rotates = turns_;
     device.max_torque = twists_ ? 0.15 : 0.0;
     device.max_torque_slew = 50.0;

@@ -51,6 +51,8 @@ private:
     std::string load();
     std::string open_one(int index);
     bool set(const Vec3& force, const Vec3& torque);
+    bool send(ForceSlot& forces);
+    void set_velocity_window();
     bool read(DeviceSample& sample);
     Exchange lost();
 
@@ -59,16 +61,20 @@ private:
     RuntimeLibrary library_;
     Functions dhd_;
     WristFunctions wrist_;
-    int (*set_watchdog_)(unsigned char, char) = nullptr;  // null: this version has none
+    int (*set_watchdog_)(unsigned char, char) = nullptr;       // null: this version has none
+    int (*set_velocity_window_)(int, int, char) = nullptr;  // likewise
     SleepTimer timer_;
     char device_ = -1;
     bool is_open_ = false;
     int type_ = 0;
     bool turns_ = false, twists_ = false;  // it has a wrist; with motors
     bool is_watched_ = false;              // by its own firmware
+    double velocity_smoothed_ = 0.0;       // see DeviceCapabilities
     Nanoseconds set_at_ = 0;               // the last force
     Nanoseconds read_at_ = 0;              // the last reading
-    std::atomic<bool> is_stopped_{false};  // by let_go(), since the last force
+    // By let_go(): counts its begins and its ends, and is odd while dhdStop() is at work.
+    std::atomic<unsigned> stops_{0};
+    unsigned enabled_after_ = 0;  // stops_ when the forces were switched on
 };
 
 }  // namespace tactus

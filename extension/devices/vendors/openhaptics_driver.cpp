@@ -184,6 +184,7 @@ void OpenHapticsDriver::read_capabilities() {
     // What its maker calls its stiffest wall (1 N/mm) with a millisecond of delay.
     capabilities_.damping = 1000.0 * (capabilities_.delay + 0.5 / capabilities_.rate);
     capabilities_.max_damping = 5.0;
+    capabilities_.velocity_smoothed = unstated_smoothing;
     capabilities_.ramp = 0.3;
 }
 

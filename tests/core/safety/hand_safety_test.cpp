@@ -96,6 +96,73 @@ TEST(HandSafety, APositionThatStaysWhileTheHandMovesIsNoReading) {
     }
 }
 
+// What a device says of a hand that goes on at a speed and stops dead after a share of a tick. Its velocity
+// is smoothed to first order, or is the mean over a window that is twice as long.
+class StoppedHand {
+public:
+    StoppedHand(double speed, double share, double smoothed, bool is_window)
+        : speed_(speed), stop_(moving_ticks + share), smoothed_(smoothed), is_window_(is_window) {}
+
+    static constexpr int moving_ticks = 100;
+    SafetySample at(int tick) {
+        SafetySample sample;
+        sample.position.x = place(tick);
+        const double truth = (place(tick) - place(tick - 1)) / sample.seconds;
+        filtered_ += sample.seconds / (sample.seconds + smoothed_) * (truth - filtered_);
+        const double window = std::max(1.0, 2.0 * smoothed_ / sample.seconds);  // ticks
+        const double mean = (place(tick) - place(tick - window)) / (window * sample.seconds);
+        sample.velocity.x = is_window_ ? mean : filtered_;
+        return sample;
+    }
+
+private:
+    double place(double tick) const { return 1e-3 * speed_ * std::min(tick, stop_); }
+
+    double speed_, stop_, smoothed_;
+    bool is_window_;
+    double filtered_ = 0.0;
+};
+
+TEST(HandSafety, ADeadStopIsNoFrozenReading) {
+    SafetySettings settings;
+    settings.sees_frozen = true;
+    for (const double smoothed : {0.0, 0.001, 0.004, 0.01}) {
+        settings.velocity_smoothed = smoothed;
+        for (const bool is_window : {false, true}) {
+            for (const double speed : {0.05, 0.3, 1.0, 3.0, 5.0}) {
+                for (const double share : {0.01, 0.5, 0.99}) {
+                    HandSafety safety;
+                    StoppedHand hand(speed, share, smoothed, is_window);
+                    for (int tick = 0; tick < 3 * StoppedHand::moving_ticks; ++tick) {
+                        ASSERT_EQ(safety.pass(settings, hand.at(tick)).state, HandState::working)
+                            << smoothed << " s, " << (is_window ? "window" : "first order") << ", " << speed
+                            << " m/s, tick " << tick;
+                    }
+                }
+            }
+        }
+    }
+}
+
+// The smoothing that a device declares excuses no velocity that the hand did not have before.
+TEST(HandSafety, AVelocityThatBeginsWhileThePositionStaysIsFrozenWithinAMillimeter) {
+    SafetySettings settings;
+    settings.sees_frozen = true;
+    for (const double smoothed : {0.0, 0.001, 0.01}) {
+        settings.velocity_smoothed = smoothed;
+        HandSafety safety;
+        SafetySample sample = pushed(2.0);
+        for (int tick = 0; tick < 10; ++tick) {
+            ASSERT_EQ(safety.pass(settings, sample).state, HandState::working);
+        }
+        sample.velocity.y = 0.4;
+        for (int tick = 1; tick <= 2; ++tick) {
+            EXPECT_EQ(safety.pass(settings, sample).state, HandState::working);
+        }
+        EXPECT_EQ(safety.pass(settings, sample).state, HandState::frozen);
+    }
+}
+
 // A force acts from its tick on: the first has gone nowhere yet.
 TEST(HandSafety, ItsWorkIsThatOfTheForcesThatWereGiven) {
     HandSafety safety;

@@ -115,6 +115,64 @@ TEST(ForceDimension, AfterTheWatchdogItsForceIsSwitchedOnAndGrows) {
     EXPECT_TRUE(wait_until([&] { return device.health().displayed.force == Vec3(0.0); }));
 }
 
+// The watchdog stopped it between the look and the force: it was taken for a device that has gone.
+TEST(ForceDimension, AStopBetweenALookAndItsForceIsNoLoss) {
+    dhd().has_wrist = true;
+    for (int round = 0; round < 3; ++round) {
+        DriverDevice device(std::make_unique<ForceDimensionDriver>(""));
+        const Vec3 asked(8.0, 0.0, 0.0);
+        const auto is_given = [](const auto&) { return values_of(dhd().force).y == 8.0; };
+        ASSERT_TRUE(tick_until(device, asked, is_given));
+        dhd().wrong_calls = 0;
+        dhd().most_step = 0.0;
+        dhd().overtaken = "dhdSetForce";
+        ASSERT_TRUE(tick_until(device, asked, [](const auto&) { return dhd().overtaken == nullptr; }));
+        EXPECT_TRUE(tick_until(device, asked, is_given));
+        EXPECT_LE(dhd().most_step, 4.0 + 1e-9) << "4 N/ms";
+        EXPECT_EQ(device.health().times_lost, 0u);
+        EXPECT_EQ(dhd().wrong_calls, 0);
+    }
+    dhd().has_wrist = false;
+}
+
+// A second stop came while the forces were switched on after the first: they stayed on.
+TEST(ForceDimension, AStopWhileForcesAreSwitchedOnCounts) {
+    DriverDevice device(std::make_unique<ForceDimensionDriver>(""));
+    const Vec3 asked(8.0, 0.0, 0.0);
+    const auto is_given = [](const auto&) { return values_of(dhd().force).y == 8.0; };
+    ASSERT_TRUE(tick_until(device, asked, is_given));
+    dhd().wrong_calls = 0;
+    dhd().most_step = 0.0;
+    dhd().hangs = true;
+    ASSERT_TRUE(tick_until(device, asked, [](const auto&) { return !dhd().forces_on; }));
+    dhd().stale_forces = 0;
+    dhd().overtaken = "dhdEnableForce";
+    dhd().hangs = false;
+    ASSERT_TRUE(tick_until(device, asked, [](const auto&) { return dhd().overtaken == nullptr; }));
+    EXPECT_TRUE(tick_until(device, asked, is_given));
+    EXPECT_LE(dhd().stale_forces, 1) << "which is taken away at once";
+    EXPECT_FALSE(dhd().is_stale);
+    EXPECT_LE(dhd().most_step, 4.0 + 1e-9) << "4 N/ms";
+    EXPECT_EQ(device.health().times_lost, 0u);
+    EXPECT_EQ(dhd().wrong_calls, 0);
+}
+
+// The library's own window is 20 ms, and a hand that stops has its velocity for as long.
+TEST(ForceDimension, TheWindowOfItsVelocityIsSetAndDeclared) {
+    {
+        DriverDevice device(std::make_unique<ForceDimensionDriver>(""));
+        ASSERT_TRUE(tick_until(device, Vec3(0.0), is_connected));
+        EXPECT_EQ(dhd().velocity_window, 2);
+        EXPECT_EQ(device.capabilities().velocity_smoothed, 0.001) << "half of it, to first order";
+    }
+    dhd().fails = "dhdConfigLinearVelocity";
+    DriverDevice device(std::make_unique<ForceDimensionDriver>(""));
+    ASSERT_TRUE(tick_until(device, Vec3(0.0), is_connected));
+    EXPECT_EQ(dhd().velocity_window, 20);
+    EXPECT_EQ(device.capabilities().velocity_smoothed, 0.01);
+    dhd().fails = nullptr;
+}
+
 TEST(ForceDimension, ALoopThatIsTooSlowIsGivenNoForceAndAReason) {
     DriverDevice device(std::make_unique<ForceDimensionDriver>(""));
     device.set_pace({10 * one_tick, true});
