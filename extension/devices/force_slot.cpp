@@ -136,10 +136,15 @@ void ForceSlot::aim_reading(const ForceCommand& command) {
                        std::max(least_lead, tick * 9 / 10));
 }
 
-Nanoseconds ForceSlot::next_reading() const {
+Nanoseconds ForceSlot::next_look() const {
     const ForceCommand& command = commands_.front();
     const Nanoseconds tick = tick_.load(std::memory_order_relaxed);
-    return command.looked_at == 0 || tick == 0 ? 0 : command.looked_at + tick - lead_;
+    return command.looked_at == 0 || tick == 0 ? 0 : command.looked_at + tick;
+}
+
+Nanoseconds ForceSlot::next_reading() const {
+    const Nanoseconds look = next_look();
+    return look == 0 ? 0 : look - lead_;
 }
 
 // The thread that sends forces may still be at it: it begins anew with its next one.

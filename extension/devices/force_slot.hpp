@@ -82,6 +82,8 @@ public:
     void given(Nanoseconds now);
     // From a reading until its force has been handed over: of a hundred, ninety-nine take no longer.
     Nanoseconds lag() const { return lag_.load(std::memory_order_relaxed); }
+    // When the loop looks for a reading again, by the newest force that living() has seen; 0: unknown.
+    Nanoseconds next_look() const;
     // When to take the next reading, so that it is there when the loop looks for it; 0: at once.
     Nanoseconds next_reading() const;
     // The device gives no force any more.

@@ -76,6 +76,11 @@ public:
         }
         return force_;
     }
+    // Which of its states the first such force has answered.
+    int answered() {
+        force();
+        return answered_;
+    }
     // How often it has had no answer to a state.
     int waited() {
         force();
@@ -122,7 +127,9 @@ private:
             } else if (said.starts_with("lied ")) {
                 told_at_ = std::strtoll(said.c_str() + 5, nullptr, 10);
             } else {
-                force_ = std::move(said);
+                const std::size_t end = said.rfind(' ');
+                answered_ = std::atoi(said.c_str() + end);
+                force_ = said.substr(0, end);
                 return true;
             }
         }
@@ -146,7 +153,7 @@ private:
     Vec3 newest_{0.0};
     double most_step_ = 0.0;
     Nanoseconds told_at_ = 0;
-    int waited_ = 0, acknowledged_ = 0;
+    int waited_ = 0, acknowledged_ = 0, answered_ = 0;
 };
 
 }  // namespace tactus::shared

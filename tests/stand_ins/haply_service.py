@@ -4,7 +4,7 @@ only after the last has been answered with a force.
     haply_service.py [silent|nonsense|uncalibrated|hasty]
 
 A hasty one that has an answer in advance tells two states at once. Prints its port, then each force that is another one, as
-"x y z", "waited" where no answer came and it told its state again, and "acknowledged" for a frame of the protocol's own.
+"x y z" and the number of the state that it answers, "waited" where no answer came and it told its state again, and "acknowledged" for a frame of the protocol's own.
 A line on stdin: "drop" closes the connection, "mad" makes nonsense of all it says from now on over this one, "lie FIELD
 MANNER" lets one field of its states lie; "lied NANOSECONDS", on the steady clock, says when the first of them was sent.
 """
@@ -124,21 +124,25 @@ def force_of(text: str) -> tuple[float, float, float]:
     return tuple(round(command["vector"][axis], 3) + 0.0 for axis in "xyz")
 
 
-def heard(force: tuple, last: tuple | None) -> tuple:
+def heard(force: tuple, last: tuple | None, states: int) -> tuple:
     if force != last:
-        print(*force, flush=True)
+        print(*force, states, flush=True)
     return force
 
 
 def serve(client: socket.socket, manner: str, lie: list[str]) -> None:
     shake_hands(client)
     last = None
+    states = 0  # those that are told again are no more
+    is_told_again = False
     has_lied = True
     while True:
+        states += not is_told_again
+        is_told_again = False
         if manner != "silent" and lie[1:] != ["silent"]:
             told = state(manner != "uncalibrated")
             if manner == "hasty" and select.select([client], [], [], 0)[0] and (text := message(client)) is not None:
-                last = heard(force_of(text), last)
+                last = heard(force_of(text), last, states)
                 client.sendall(2 * frame(json.dumps(told)))
             else:
                 client.sendall(frame("{]" if manner == "nonsense" else json.dumps(lying(told, *lie) if lie else told)))
@@ -160,10 +164,11 @@ def serve(client: socket.socket, manner: str, lie: list[str]) -> None:
                     return
             if client not in readable:
                 print("waited", flush=True)
+                is_told_again = True
                 break  # no answer yet: it is told again, as the real one does at its own pace
             text = message(client)
             if text is not None:
-                last = heard(force_of(text), last)
+                last = heard(force_of(text), last, states)
                 break
             print("acknowledged", flush=True)
         time.sleep(0.0008)

@@ -36,6 +36,12 @@ Quat rotation_of(const JsonValue& turn) {
 constexpr Nanoseconds first_state = 2'000'000'000;
 constexpr Nanoseconds look_again = 2'000'000;
 
+// A state waits for the force that it leads to where the loop looks for it within that time, and writes that
+// force within another one. Both together with the period of the service are less than a force lives
+// (ForceLife).
+constexpr Nanoseconds soon = 250'000;
+constexpr Nanoseconds write_after_look = 100'000;
+
 }  // namespace
 
 std::string Inverse3Driver::open(const std::atomic<bool>& stop) {
@@ -47,9 +53,11 @@ std::string Inverse3Driver::open(const std::atomic<bool>& stop) {
     }
     std::string problem = "Haply's service says nothing: start Haply Hub anew";
     for (const Nanoseconds end = monotonic_now() + first_state; monotonic_now() < end && !stop.load();) {
-        if (socket_.receive(text_, look_again) == 0) {
+        const int came = socket_.receive(text_, look_again);
+        if (came == 0) {
             continue;
         }
+        owed_ = came;
         problem = choose(json_.read(text_));
         if (problem.empty()) {
             return {};
@@ -148,8 +156,20 @@ void Inverse3Driver::send(const Vec3& force) {
     sent_ = force;
 }
 
-// A state is answered at once: the service sends the next one when it has an answer.
+// What is owed for the last state, since the service sends the next one when it has an answer.
+void Inverse3Driver::answer(ForceSlot& forces, Nanoseconds until) {
+    if (const Nanoseconds look = forces.next_look(); look - monotonic_now() < soon) {
+        forces.wait_for_write(std::min(until, look + write_after_look));
+    }
+    send(forces.living(monotonic_now()));
+    forces.given(monotonic_now());
+    owed_ = 0;
+}
+
 Driver::Exchange Inverse3Driver::exchange(ForceSlot& forces, Nanoseconds until, DriverReading& reading) {
+    if (owed_ > 0) {
+        answer(forces, until);
+    }
     for (;;) {
         const std::array files{socket_.file()};
         forces.wait_for_files(sent_ != Vec3(0.0) ? std::min(until, forces.end() + 1) : until, files);
@@ -162,13 +182,12 @@ Driver::Exchange Inverse3Driver::exchange(ForceSlot& forces, Nanoseconds until, 
         if (came > 0 && take(json_.read(text_), reading.sample)) {
             reading.at = now;
             forces.heard(now, now);
-            const Vec3 force = forces.living(now);
-            if (owed_ > 0) {
-                send(reading.sample.connected ? force : Vec3(0.0));
-                forces.given(monotonic_now());
-                owed_ = 0;
-            } else {
+            forces.living(now);
+            if (owed_ <= 0) {
                 socket_.acknowledge();
+            } else if (!reading.sample.connected) {
+                send(Vec3(0.0));
+                owed_ = 0;
             }
             if (!reading.sample.connected) {
                 forces.taken();  // whether or not the loop sees this reading
@@ -202,6 +221,7 @@ DeviceCapabilities Inverse3Driver::capabilities() const {
     device.max_speed = 5.0;
     device.damping = 2.0;
     device.max_damping = 10.0;
+    device.velocity_smoothed = unstated_smoothing;
     device.ramp = 0.3;
     return device;
 }

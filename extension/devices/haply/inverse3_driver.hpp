@@ -33,6 +33,7 @@ private:
     std::string choose(const JsonValue& state);
     bool take(const JsonValue& state, DeviceSample& sample);
     void send(const Vec3& force);
+    void answer(ForceSlot& forces, Nanoseconds until);
 
     std::string wanted_, id_;
     DeviceClaim claim_;

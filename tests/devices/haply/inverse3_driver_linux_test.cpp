@@ -58,6 +58,64 @@ TEST(Inverse3, AStalledLoopLetsTheHandGo) {
     EXPECT_TRUE(wait_until([&] { return service.force() == "0.0 0.0 0.0"; }));
 }
 
+// Exchanges with the service by hand: the loop's next look is at a time of the test's, and no force ends.
+class InverseExchanges {
+public:
+    explicit InverseExchanges(const HaplyService& service) : driver_("", service.port()) {
+        const std::atomic<bool> stop{false};
+        EXPECT_EQ(driver_.open(stop), "");
+        forces_.begin(driver_.capabilities(), driver_.is_paced());
+    }
+    // Of the loop, which looks again within `to_look`.
+    void write(const Vec3& force, Nanoseconds to_look) {
+        const Nanoseconds now = monotonic_now();
+        forces_.write({force, Vec3(0.0), now + longest_wait, 0, now + to_look - one_tick});
+    }
+    bool next_reading() {
+        Driver::Exchange done = Driver::Exchange::nothing;
+        for (int i = 0; i < 100 && done != Driver::Exchange::reading; ++i) {
+            done = driver_.exchange(forces_, monotonic_now() + 50 * one_tick, reading_);
+            forces_.heard(monotonic_now(), monotonic_now() + longest_wait);
+        }
+        return done == Driver::Exchange::reading;
+    }
+
+private:
+    ForceSlot forces_;
+    Inverse3Driver driver_;
+    DriverReading reading_;
+};
+
+// It was answered with the force of the state before, and its own went out a period of the service later.
+TEST(Inverse3, AStateWaitsForTheForceThatItLeadsTo) {
+    NEEDS_LIBRARIES();
+    HaplyService service;
+    InverseExchanges driver(service);
+    int states = 1;  // with the one that open() has read
+    for (double newtons = 0.25; newtons <= 2.5; newtons += 0.25) {
+        ASSERT_TRUE(driver.next_reading());
+        ++states;
+        driver.write({newtons, 0.0, 0.0}, 0);
+        ASSERT_TRUE(driver.next_reading());
+        ASSERT_TRUE(wait_until([&] { return service.newest_force().x == newtons; })) << newtons;
+        EXPECT_EQ(service.answered(), states) << newtons;
+        ++states;
+    }
+}
+
+TEST(Inverse3, AStateIsAnsweredAtOnceWhereTheLoopLooksLater) {
+    NEEDS_LIBRARIES();
+    HaplyService service;
+    InverseExchanges driver(service);
+    ASSERT_TRUE(driver.next_reading());
+    for (int i = 0; i < 3; ++i) {
+        driver.write({1.0 + i, 0.0, 0.0}, 1'000 * one_tick);
+        ASSERT_TRUE(driver.next_reading());
+        ASSERT_TRUE(driver.next_reading()) << "it has had its answer without a write";
+        EXPECT_LT(service.waited(), 3);
+    }
+}
+
 // The service takes one message for each state: each one more was an answer late, with all forces behind it.
 TEST(Inverse3, AForceIsNoLaterAfterManyCuts) {
     NEEDS_LIBRARIES();
