@@ -162,6 +162,7 @@ bool Sensor::try_to_open() {
 void Sensor::read_frame() {
     switch (camera_->read(image_, frame_wait_ms)) {
         case FrameSource::Reading::frame:
+            damaged_ = 0;
             see(image_, monotonic_now());
             return;
         case FrameSource::Reading::damaged:
@@ -188,10 +189,12 @@ void Sensor::read_frame() {
     fade();
 }
 
-// A single one is forgotten over the next.
+// A single one is forgotten over the next, however late this thread is.
 void Sensor::miss_damaged() {
     ++seen_.sight.dropped;
-    if (seen_.sight.state != SensorState::seeing || monotonic_now() - last_frame_ > silence) {
+    ++damaged_;
+    const bool is_silent = damaged_ > 1 && monotonic_now() - last_frame_ > silence;
+    if (seen_.sight.state != SensorState::seeing || is_silent) {
         say(SensorState::waiting, camera_->trouble());
     }
 }

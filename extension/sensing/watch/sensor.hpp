@@ -96,6 +96,7 @@ private:
     DepthImage image_;
     Picture seen_, spare_;
     Nanoseconds last_frame_ = 0, last_fade_ = 0;
+    int damaged_ = 0;  // images in succession
 
     LastingThread thread_;
 };
