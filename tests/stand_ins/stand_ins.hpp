@@ -107,9 +107,9 @@ struct ForceDimension {
     std::atomic<bool> is_stale{false};  // forces were switched on by such a call, and not stopped since
     std::atomic<int> set_forces{0}, stale_forces{0}, stops{0};
     std::atomic<int> velocity_window{20};  // (unit: milliseconds)
-    std::atomic<double> most_step{0.0};  // of the force from one call to the next (unit: newtons)
-    // With another device, before it is open, or without forces that were ever switched on. After a dhdStop(),
-    // which another thread may call, a force is refused and no more.
+    std::atomic<double> most_step{0.0};    // of the force from one call to the next (unit: newtons)
+    // With another device, before it is open, or without forces that were ever switched on. After a
+    // dhdStop(), which another thread may call, a force is refused and no more.
     std::atomic<int> wrong_calls{0};
 };
 

@@ -28,13 +28,13 @@ struct DeviceCapabilities {
     double max_damping = 0.0;  // that may be rendered on top (the same unit)
     double delay = 0.0;        // from a place's reading to its force, besides the tick (unit: seconds)
     // Of what moves with the hand, as a drive that moves it needs it.
-    double mass = 0.0;               // (unit: kilograms); 0: unknown
-    double viscous = 0.0;            // friction (unit: newton seconds per meter)
-    double coulomb = 0.0;            // friction (unit: newtons)
+    double mass = 0.0;     // (unit: kilograms); 0: unknown
+    double viscous = 0.0;  // friction (unit: newton seconds per meter)
+    double coulomb = 0.0;  // friction (unit: newtons)
     // Of DeviceSample::velocity, to first order; half of the window where it is the mean over one (unit:
     // seconds), >= 0.
     double velocity_smoothed = 0.0;
-    double ramp = 0.0;               // until a force that begins is there (unit: seconds)
+    double ramp = 0.0;    // until a force that begins is there (unit: seconds)
     double weight = 0.0;  // of its arm in the hand, which its motors are to carry (unit: newtons), >= 0
 
     bool operator==(const DeviceCapabilities&) const = default;

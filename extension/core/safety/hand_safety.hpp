@@ -101,7 +101,7 @@ private:
     Vec3 position_{0.0};
     double stayed_ = 0.0;   // the path of the velocity since the position changed last (unit: meters)
     double stopped_ = 0.0;  // the speed that it said then (unit: meters per second)
-    Vec3 given_{0.0};      // in the last tick
+    Vec3 given_{0.0};       // in the last tick
     double work_ = 0.0;
     Quat rotation_{1.0, 0.0, 0.0, 0.0};
 };

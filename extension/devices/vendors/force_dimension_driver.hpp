@@ -61,8 +61,8 @@ private:
     RuntimeLibrary library_;
     Functions dhd_;
     WristFunctions wrist_;
-    int (*set_watchdog_)(unsigned char, char) = nullptr;       // null: this version has none
-    int (*set_velocity_window_)(int, int, char) = nullptr;  // likewise
+    int (*set_watchdog_)(unsigned char, char) = nullptr;    // null: this version has none
+    int (*set_velocity_window_)(int, int, char) = nullptr;  // null: this version has none
     SleepTimer timer_;
     char device_ = -1;
     bool is_open_ = false;
