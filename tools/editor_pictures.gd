@@ -9,6 +9,9 @@ const SIZE := Vector2i(1440, 900)
 const TALL := Vector2i(1440, 1180)
 const PLAYED := "res://gallery/static_testbed/static_testbed.tscn"
 const PLAYED_SECONDS := 12.0
+const FILMED := "res://gallery/still_life/still_life.tscn"
+const FILM_SIZE := Vector2i(1152, 648)
+const FILM_SECONDS := 600.0
 
 var _folder := ""
 var _made := 0
@@ -19,11 +22,10 @@ func _ready() -> void:
 	_folder = OS.get_cmdline_user_args()[0]
 	while EditorInterface.get_resource_filesystem().is_scanning():
 		await get_tree().process_frame
-	var settings := EditorInterface.get_editor_settings()
-	settings.set_setting("run/window_placement/game_embed_mode", -1)
 	await _resize(SIZE)
 	await _run()
-	get_tree().quit(1 if _has_failed else 0)
+	print("FAILED" if _has_failed else "DONE")
+	get_tree().quit()
 
 
 func _run() -> void:
@@ -47,6 +49,7 @@ func _run() -> void:
 	await _warnings()
 	await _help()
 	await _panel()
+	await _film()
 
 
 ## It shows by itself in a project that is new to the editor.
@@ -153,7 +156,28 @@ func _panel() -> void:
 	await get_tree().create_timer(1.0).timeout
 	make_bottom_panel_item_visible(dock)  # the editor shows its output
 	await get_tree().create_timer(PLAYED_SECONDS).timeout
-	await _save("panel_playing")
+	await _save_screen("panel_playing")
+	EditorInterface.stop_playing_scene()
+	await _frames(20)
+
+
+## A scene is played in the editor's own view until all of its pictures are taken.
+func _film() -> void:
+	await _open(FILMED)
+	await _select(EditorInterface.get_edited_scene_root().get_node("HapticWorld/HapticDevice"))
+	await _resize(FILM_SIZE)
+	EditorInterface.play_custom_scene("res://pictures/moving_scene.tscn")
+	await get_tree().create_timer(5.0).timeout
+	hide_bottom_panel()  # the editor shows its output
+	await _frames(20)
+	FileAccess.open(_folder.path_join("begin"), FileAccess.WRITE).close()
+	var deadline := Time.get_ticks_msec() + int(FILM_SECONDS * 1000.0)
+	while FileAccess.get_file_as_string(_folder.path_join("shown")) != "end":
+		await get_tree().process_frame
+		if Time.get_ticks_msec() > deadline:
+			_has_failed = true
+			printerr("the film is not done after %d s" % FILM_SECONDS)
+			break
 	EditorInterface.stop_playing_scene()
 	await _frames(20)
 
@@ -212,6 +236,16 @@ func _frames(count: int) -> void:
 func _save(called: String) -> void:
 	await _frames(5)
 	_keep(await _picture(), called)
+
+
+## With the scene that plays in the editor's view: another program, whose picture only the screen has.
+func _save_screen(called: String) -> void:
+	var file := FileAccess.open(_folder.path_join("shown.partial"), FileAccess.WRITE)
+	file.store_string(called)
+	file.close()
+	DirAccess.rename_absolute(_folder.path_join("shown.partial"), _folder.path_join("shown"))
+	while FileAccess.get_file_as_string(_folder.path_join("taken")) != called:
+		await get_tree().process_frame
 
 
 func _save_inspector(called: String) -> void:

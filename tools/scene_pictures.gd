@@ -26,7 +26,7 @@ const GALLERY := {
 	"stack": 2.5,
 	"hinge_door": 3.0,
 	"pinch": 4.5,
-	"peg_in_hole": 2.6,
+	"peg_in_hole": 9.4,
 	"delay_lab": 4.0,
 	"two_operators": 2.5,
 	"wrong_model": 4.0,
@@ -36,11 +36,6 @@ const GALLERY := {
 }
 ## With the mouse at a place of the rig's table.
 const RIG_TOUCHES := {"rig_ball": Vector3(-0.14, 0.06, -0.02), "rig_cushion": Vector3(0.16, 0.02, -0.03)}
-## Of the scene that moves: its scripted hand, once around.
-const MOVING := "still_life"
-const MOVING_FRAMES := 139
-const MOVING_STEP := 1.0 / 12.0
-const MOVING_SIZE := Vector2i(640, 360)
 ## Pages, and how long they need in real time.
 const PAGES := {
 	"menu": ["res://main.tscn", 1.0],
@@ -71,8 +66,6 @@ func _run() -> void:
 	for called: String in RIG_TOUCHES:
 		if asked.is_empty() or called in asked:
 			await _rig(called, RIG_TOUCHES[called])
-	if asked.is_empty() or "still_life_moving" in asked:
-		await _moving("still_life_moving")
 	for called: String in PAGES:
 		if asked.is_empty() or called in asked:
 			await _page(called, PAGES[called][0], PAGES[called][1])
@@ -100,24 +93,6 @@ func _rig(called: String, at: Vector3) -> void:
 	scene.free()
 
 
-## One picture for each twelfth of a second.
-func _moving(called: String) -> void:
-	var scene := _added(Gallery.path_of(MOVING))
-	var worlds := Stepping.hold(scene)
-	(scene.get_node("Placard") as CanvasLayer).hide()
-	root.size = MOVING_SIZE
-	for frame in MOVING_FRAMES:
-		RenderingServer.render_loop_enabled = false
-		await _play(worlds, MOVING_STEP)
-		RenderingServer.render_loop_enabled = true
-		await process_frame
-		await RenderingServer.frame_post_draw
-		_keep("%s-%03d" % [called, frame])
-	print("PICTURE ", called)
-	root.size = SIZE
-	scene.free()
-
-
 func _page(called: String, file: String, seconds: float) -> void:
 	var scene := _added(file)
 	await create_timer(seconds).timeout
@@ -139,7 +114,9 @@ func _scene(called: String, seconds: float) -> void:
 	var scene := _added(Gallery.path_of(called))
 	var worlds := Stepping.hold(scene)
 	var deadline := Time.get_ticks_msec() + int(FINDS_WITHIN * 1000.0)
-	while not _sees(scene) and Time.get_ticks_msec() < deadline:
+	while not (_sees(scene) and _holds(scene)) and Time.get_ticks_msec() < deadline:
+		if not _holds(scene):
+			Stepping.advance(worlds, Stepping.TICK)
 		await process_frame
 	RenderingServer.render_loop_enabled = false
 	await _play(worlds, seconds)
@@ -174,6 +151,13 @@ func _keep(called: String) -> void:
 	if code != OK:
 		_has_failed = true
 		printerr("'%s' could not be written (%s)" % [path, error_string(code)])
+
+
+## A tool is built beside the loop.
+func _holds(scene: Node) -> bool:
+	return scene.find_children("*", "HapticTool").all(
+		func(tool: HapticTool) -> bool: return tool.get_state() == HapticTool.STATE_WORKING
+	)
 
 
 func _sees(scene: Node) -> bool:

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import addon
 import docs
+import docs_pictures
 import pytest
 import yaml
 from setup import cache, python_tools
@@ -165,7 +166,7 @@ def test_every_picture_is_made_by_the_command_and_shown():
     assert of_gallery
     others = scenes.replace(of_gallery[0], "")
     made = {f"scene_{name}" for name in re.findall(r'"(\w+)"', of_gallery[1])} | set(re.findall(r'"(\w+)":', others))
-    made |= set(re.findall(r'_moving\("(\w+)"\)', others))
-    made |= {one or other for one, other in re.findall(r'_save(?:_inspector)?\("(\w+)"\)|_node_alone\(\w+, "(\w+)"', editor)}
+    made.add(docs_pictures.FILM)
+    made |= {one or other for one, other in re.findall(r'_save(?:_inspector|_screen)?\("(\w+)"\)|_node_alone\(\w+, "(\w+)"', editor)}
     made |= set(re.findall(r'_keep\(.*, "(\w+)"\)', editor))
     assert shown == there == made and len(there) >= 25

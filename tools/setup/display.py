@@ -13,8 +13,15 @@ def environment(size: str = SIZE) -> Iterator[dict[str, str]]:
     if os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"):
         yield dict(os.environ)
         return
+    with virtual(size) as own:
+        yield own
+
+
+@contextmanager
+def virtual(size: str, *options: str) -> Iterator[dict[str, str]]:
+    """`options`: more of Xvfb's own."""
     reading, writing = os.pipe()
-    command = ["Xvfb", "-displayfd", str(writing), "-screen", "0", size, "-nolisten", "tcp", "-noreset"]
+    command = ["Xvfb", "-displayfd", str(writing), "-screen", "0", size, "-nolisten", "tcp", "-noreset", *options]
     server = subprocess.Popen(command, pass_fds=[writing], stderr=subprocess.DEVNULL)
     os.close(writing)
     try:
