@@ -30,6 +30,12 @@ Vec3 drawing_back(const Vec3& force, const Vec3& offset, const Vec3& felt_before
     return along * std::max(0.0, least - glm::dot(force + offset, along));
 }
 
+// What a spring that goes along with the hand would lose by its way from one place to the other.
+double released(const Vec3& offset, double spring, const Vec3& way) {
+    const double length = glm::length(offset);
+    return length > 0.0 ? spring * std::max(0.0, glm::dot(way, offset) / length) : 0.0;
+}
+
 double change_by_hand(const FadingForce::Step& from, const FadingForce::Step& to) {
     const Vec3 moved = to.hand - from.hand;
     const Vec3 stretched = moved - (to.proxy - from.proxy);
@@ -42,10 +48,12 @@ double change_by_hand(const FadingForce::Step& from, const FadingForce::Step& to
 Vec3 FadingForce::felt(const Vec3& force, double limit, bool jumped, const Step& step) {
     const Vec3 given = limited_force(force, limit);
     const double allowed = std::max(step.fade, change_by_hand(step_, step));
+    const double stiffest = std::max(step_.stiffness, step.stiffness);
+    offset_ = shortened_by(offset_, std::max(step.fade, released(offset_, spring_, step.hand - step_.hand)));
     step_ = step;
-    offset_ = shortened_by(offset_, step.fade);
     if (jumped) {
         // What it jumps by beyond that joins what is still fading.
+        spring_ = offset_ == Vec3(0.0) ? stiffest : std::max(spring_, stiffest);
         offset_ -= shortened_by(given + offset_ - felt_, allowed);
     }
     offset_ += drawing_back(given, offset_, felt_);

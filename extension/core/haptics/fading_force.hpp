@@ -5,6 +5,10 @@
 // that lets go change it at once. Then
 //     felt force = force of the scene + offset,
 // where the offset is what the felt force would jump by otherwise, and fades by a fixed step a tick.
+//
+// A hand that the offset o pushes along must not get more work from it than the spring of stiffness k held
+// that has let go, o^2 / (2 k). So where the hand goes by dx along o, o falls by k dx at least, as the force
+// of that spring would have: then o^2 / (2 k) falls by o dx or more in each tick.
 #pragma once
 
 #include "core/math/types.hpp"
@@ -45,8 +49,9 @@ public:
 
 private:
     Vec3 offset_{0.0};
-    Vec3 felt_{0.0};  // in the last tick, within the limit
-    Step step_;       // of the last tick
+    double spring_ = 0.0;  // of what has let go (unit: newtons per meter)
+    Vec3 felt_{0.0};       // in the last tick, within the limit
+    Step step_;            // of the last tick
 };
 
 // The same of a force and the torque that goes with it, each by itself: of the second, all is in newton

@@ -110,6 +110,32 @@ TEST(FadingForce, WhoLeavesWhileItFadesInIsNotDrawnBack) {
     EXPECT_FALSE(fading.fades());
 }
 
+// A spring lets go at an edge, and the hand goes with the force, however slowly or fast: it gets no more work
+// than the spring held, and no kick.
+TEST(FadingForce, WhatLetGoGivesNoMoreThanItsSpringHeld) {
+    for (const double stiffness : {500.0, 3000.0}) {
+        for (const double meters_a_tick : {1e-5, 1e-4, 1e-3}) {
+            FadingForce fading;
+            FadingForce::Step step{Vec3(0.0), Vec3(0.0), stiffness, 0.0};
+            Vec3 felt = fading.felt(60.0 * up, no_limit, false, step);
+            step.stiffness = 0.0;
+            double work = 0.0;
+            for (int i = 0; i < 1000; ++i) {
+                const Vec3 before = felt;
+                felt = fading.felt(Vec3(0.0), no_limit, i == 0, step);
+                EXPECT_LE(glm::distance(before, felt),
+                          std::max(FadingForce::max_step, stiffness * meters_a_tick) + 1e-9);
+                const Vec3 way = meters_a_tick * glm::normalize(Vec3(0.3, 1.0, 0.0));
+                step.hand += way;
+                work += glm::dot(felt, way);
+            }
+            const double held = 0.5 * 60.0 * 60.0 / stiffness;
+            const double by_the_hold = 0.5 * 60.0 * meters_a_tick;  // the device holds each force for a tick
+            EXPECT_LE(work, held + by_the_hold) << stiffness << " N/m, " << meters_a_tick;
+        }
+    }
+}
+
 // What lingers of a force that has gone is not cut short by another one that grows against it.
 TEST(FadingForce, WhatLingersIsNotCutByAForceAgainstIt) {
     FadingForce fading;
