@@ -14,17 +14,14 @@ namespace {
 constexpr double near_enough = 0.1;
 constexpr std::uint64_t ticks_between_looks = 16;
 
-// What a step takes of one element's forces, and of one entry of the factor in a solve, about (docs/soft.md;
-// unit: seconds). Part of the results, as any budget: not to be measured where it runs.
-constexpr double element_time = 26e-9;
-constexpr double entry_time = 1.5e-9;
 // Of a tick, for all bodies that give together.
 constexpr double soft_share = 0.6;
 
+// One more solve for hands that press, one for what it lies on.
 double time_of_step(const SoftSlot& soft) {
     const SoftModel& model = soft.body.model();
-    const double solve = entry_time * static_cast<double>(model.factor.entries());
-    return element_time * static_cast<double>(model.element_count) + (soft.is_pressed() ? 2.0 : 1.0) * solve;
+    const int solves = (soft.is_pressed() ? 1 : 0) + (soft.near().empty() ? 0 : 1);
+    return soft.body.iterations * model.iteration_time() + solves * model.solve_time();
 }
 
 }  // namespace
@@ -135,6 +132,7 @@ void SessionLoop::step_soft() {
     }
     const std::size_t first = soft_turn_ % giving_.size();
     double left = soft_share * seconds_;
+    const double of_each = std::min(max_iteration_time, left / static_cast<double>(giving_.size()));
     bool any = false;
     for (const bool pressed : {true, false}) {
         for (std::size_t i = 0; i < giving_.size(); ++i) {
@@ -143,6 +141,7 @@ void SessionLoop::step_soft() {
             if (soft.was_stepped(tick_) || (pressed && !soft.is_pressed())) {
                 continue;
             }
+            soft.body.iterations = soft.body.model().iterations_within(of_each);
             const double time = soft.body.is_asleep() && !soft.is_pressed() ? 0.0 : time_of_step(soft);
             if (any && time > left) {
                 soft_turn_ = slowed_soft_++ == 0 ? at : soft_turn_;

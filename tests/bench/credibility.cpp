@@ -1,6 +1,6 @@
 // How right free bodies move, and what a hand feels from them, against closed forms.
 //
-//     credibility [--only=friction|spin|hand|slowed|joints|crowd]
+//     credibility [--only=friction|spin|hand|slowed|joints|crowd|soft]
 //
 // Writes the file that TACTUS_BENCH_JSON names (build/bench/credibility.json otherwise): CASE.ours and, where
 // there is a closed form, CASE.right, in SI units, and what is a figure by itself. ./run bench credibility
@@ -31,5 +31,7 @@ int main(int count, char** arguments) {
         bench::measure_joints(results);
     if (part("crowd"))
         bench::measure_stacks(results);
+    if (part("soft"))
+        bench::measure_soft(results);
     return results.report.write_json(shared::result_path("credibility")) ? 0 : 1;
 }

@@ -469,7 +469,7 @@ TEST(SoftTool, TheSamePressesGiveTheSameBits) {
     EXPECT_EQ(hashes[0], hashes[1]);
 }
 
-// Twelve blocks of 3,072 tetrahedra, which fall onto themselves, want more than a tick has for them.
+// Twelve blocks of 512 cells, which fall onto themselves, want more than a tick has for them.
 TEST(Soft, SeveralShareATickAndWhatIsPressedGoesFirst) {
     SessionRig rig;
     std::vector<std::shared_ptr<SoftView>> views;

@@ -36,7 +36,7 @@ struct SoftFigures {
     std::vector<double> still_microseconds;  // of ticks asleep
 };
 
-// A block of 80 mm and 3,072 tetrahedra on its foot, pressed in 10 mm by a point of 10 mm radius and let go,
+// A block of 80 mm and 512 cells on its foot, pressed in 10 mm by a point of 10 mm radius and let go,
 // at places on its top and its sides. `judged`: one in so many ticks is looked at for passes.
 SoftFigures press_block(int presses, double stiffness, int judged);
 // A cloth of 1,024 vertices on a frame, pressed in 10 mm, from above.

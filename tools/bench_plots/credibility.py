@@ -26,6 +26,15 @@ UNITS = {
     "damping.way_10": "m",
     "damping.way_100": "m",
     "cradle.speed": "m/s",
+    "soft_plate.period_100kPa": "s",
+    "soft_plate.period_1MPa": "s",
+    "soft_plate.period_100kPa_damped": "s",
+    "soft_plate.period_1MPa_damped": "s",
+    "soft_roll.acceleration": "m/s²",
+    "soft_beam.sag": "m",
+    "soft_beam.period_100kPa": "s",
+    "soft_beam.period_1MPa": "s",
+    "soft_beam.period_10MPa": "s",
 }
 FIGURES = {
     "free_rotation.momentum_drift_60s": ("angular momentum of a free box, largest change in 60 s", "%"),
@@ -65,6 +74,15 @@ TITLES = {
     "damping.way_10": "way of a body damped by 10/s",
     "damping.way_100": "way of a body damped by 100/s",
     "cradle.speed": "Newton's cradle of five: speed of the last",
+    "soft_plate.period_100kPa": "soft plate of 0.1 MPa that swings by an edge, as a rigid one: period",
+    "soft_plate.period_1MPa": "of 1 MPa",
+    "soft_plate.period_100kPa_damped": "of 0.1 MPa, damping of 20 ms",
+    "soft_plate.period_1MPa_damped": "of 1 MPa, damping of 20 ms",
+    "soft_roll.acceleration": "soft ball of 30 kPa down a slope of 0.15 rad, as a rigid one",
+    "soft_beam.sag": "soft cantilever of 200 × 20 × 20 mm, 8 cells: sag",
+    "soft_beam.period_100kPa": "first period at 0.1 MPa",
+    "soft_beam.period_1MPa": "at 1 MPa",
+    "soft_beam.period_10MPa": "at 10 MPa",
 }
 
 

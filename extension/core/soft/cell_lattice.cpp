@@ -1,11 +1,17 @@
-// A closed surface filled with cells of a lattice: every cell that it cuts or holds, each cut into the six
-// tetrahedra around its diagonal. All cells are cut alike, so that the tetrahedra of neighbours share faces.
+// A closed surface filled with cells of a lattice: every cell that it cuts or holds.
+//
+// A cell's mean deformation does not see its four modes x y, y z, z x and x y z, in which it bends and warps.
+// Springs across its faces do, each over e = x00 - x01 - x10 + x11 of the four corners. Where a cell of size
+// (a, b, c) and volume V bends by u_x = s x y, its stress is E s y: the energy is V E s^2 b^2 / 24. On both
+// of its faces along z e is s a b, so that k = V E / (24 a^2) each. They have no length at rest: their energy
+// is quadratic, the same in all directions and 0 in each motion and in each even deformation.
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "core/mesh/closed_mesh.hpp"
@@ -20,10 +26,6 @@ namespace {
 constexpr int max_cells = 64;          // along a side
 constexpr int samples_a_side = 3;      // of a cell, to tell how much of it is filled
 constexpr double least_filled = 0.05;  // of a cell that the surface cuts: no node is as light as nothing
-
-// The corners from (0, 0, 0) to (1, 1, 1) along the axes in each order, wound right.
-constexpr std::array<std::array<int, 3>, 6> axis_orders{
-    {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {1, 0, 2}, {2, 1, 0}}};
 
 using Cell = std::array<int, 3>;
 
@@ -50,7 +52,8 @@ public:
 
     bool is_flat() const { return !(spacing_.x > 0.0 && spacing_.y > 0.0 && spacing_.z > 0.0); }
 
-    SoftDraft fill(double density) {
+    SoftDraft fill(const SoftMaterial& material) {
+        density_ = material.density;
         add_anchors();
         Cell cell{};
         for (cell[2] = 0; cell[2] < count_[2]; ++cell[2]) {
@@ -60,7 +63,8 @@ public:
                 }
             }
         }
-        add_masses(density);
+        add_springs(material.stiffness);
+        draft_.cell_size = spacing_;
         draft_.surface = surface_;
         return std::move(draft_);
     }
@@ -109,51 +113,71 @@ private:
         }
     }
 
-    double share_filled(const Cell& cell) const {
-        int inside = 0;
-        for (int i = 0; i < samples_a_side * samples_a_side * samples_a_side; ++i) {
-            const Vec3 share = (Vec3(i % samples_a_side, i / samples_a_side % samples_a_side,
-                                     i / (samples_a_side * samples_a_side)) +
-                                0.5) /
-                               static_cast<double>(samples_a_side);
+    // Of the cell's volume, by corner: what is nearer to one counts for it by more.
+    std::array<double, 8> shares_filled(const Cell& cell) const {
+        constexpr int samples = samples_a_side * samples_a_side * samples_a_side;
+        std::array<double, 8> shares{};
+        for (int i = 0; i < samples; ++i) {
+            const Vec3 at = (Vec3(i % samples_a_side, i / samples_a_side % samples_a_side,
+                                  i / (samples_a_side * samples_a_side)) +
+                             0.5) /
+                            static_cast<double>(samples_a_side);
             WorkBudget work(1'000'000);
-            inside += tree_.winding(corner_place(cell) + spacing_ * share, work).inside() ? 1 : 0;
+            if (!tree_.winding(corner_place(cell) + spacing_ * at, work).inside()) {
+                continue;
+            }
+            for (std::size_t c = 0; c < shares.size(); ++c) {
+                shares[c] += ((c & 1) != 0 ? at.x : 1.0 - at.x) * ((c & 2) != 0 ? at.y : 1.0 - at.y) *
+                             ((c & 4) != 0 ? at.z : 1.0 - at.z) / samples;
+            }
         }
-        return static_cast<double>(inside) / (samples_a_side * samples_a_side * samples_a_side);
+        return shares;
     }
 
     void add_cell(const Cell& cell) {
-        const double share = share_filled(cell);
-        if (share == 0.0 && !cut_.contains(cell)) {
+        std::array<double, 8> shares = shares_filled(cell);
+        const double filled = std::accumulate(shares.begin(), shares.end(), 0.0);
+        if (filled == 0.0 && !cut_.contains(cell)) {
             return;
         }
-        for (std::size_t k = 0; k < axis_orders.size(); ++k) {
-            Cell corner = cell;
-            Tetrahedron t{node_at(corner), 0, 0, 0};
-            for (std::size_t c = 0; c < 3; ++c) {
-                ++corner[static_cast<std::size_t>(axis_orders[k][c])];
-                t[c + 1] = node_at(corner);
-            }
-            if (k >= 3) {
-                std::swap(t[2], t[3]);
-            }
-            draft_.tetrahedra.push_back(t);
-            draft_.filled.push_back(std::max(share, least_filled));
+        if (filled < least_filled) {
+            shares.fill(least_filled / 8.0);
         }
+        SoftDraft::Cell made{{}, std::max(filled, least_filled)};
+        const double mass = density_ * spacing_.x * spacing_.y * spacing_.z;
+        for (std::size_t c = 0; c < made.node.size(); ++c) {
+            const int bits = static_cast<int>(c);
+            made.node[c] = node_at({cell[0] + (bits & 1), cell[1] + (bits >> 1 & 1), cell[2] + (bits >> 2)});
+            draft_.mass.resize(draft_.nodes.size(), 0.0);
+            draft_.mass[made.node[c]] += mass * shares[c];
+        }
+        draft_.cells.push_back(made);
     }
 
-    void add_masses(double density) {
-        draft_.mass.assign(draft_.nodes.size(), 0.0);
-        for (std::size_t i = 0; i < draft_.tetrahedra.size(); ++i) {
-            const double volume = tetrahedron_volume(draft_.nodes, draft_.tetrahedra[i]) * draft_.filled[i];
-            for (const std::uint32_t corner : draft_.tetrahedra[i]) {
-                draft_.mass[corner] += 0.25 * density * volume;
+    // Neighbors share a face, and its spring.
+    void add_springs(double modulus) {
+        std::map<std::array<std::uint32_t, 4>, double> stiffness_of;
+        const double volume = spacing_.x * spacing_.y * spacing_.z;
+        for (const SoftDraft::Cell& cell : draft_.cells) {
+            for (int axis = 0; axis < 3; ++axis) {
+                const std::size_t one = std::size_t{1} << (axis + 1) % 3,
+                                  other = std::size_t{1} << (axis + 2) % 3;
+                const double edge = std::max(spacing_[(axis + 1) % 3], spacing_[(axis + 2) % 3]);
+                for (const std::size_t c : {std::size_t{0}, std::size_t{1} << axis}) {
+                    stiffness_of[{cell.node[c], cell.node[c + one], cell.node[c + other],
+                                  cell.node[c + one + other]}] +=
+                        cell.filled * volume * modulus / (24.0 * edge * edge);
+                }
             }
+        }
+        for (const auto& [corners, stiffness] : stiffness_of) {
+            draft_.springs.push_back({corners, {1.0, -1.0, -1.0, 1.0}, stiffness, 0.0});
         }
     }
 
     const TriangleMesh& surface_;
     TriangleTree tree_;
+    double density_ = 0.0;
     Vec3 low_{0.0};
     Vec3 spacing_{0.0};
     Cell count_{};
@@ -181,7 +205,7 @@ SoftDraftResult draft_volume(const SoftDesign& design) {
     if (lattice.is_flat()) {
         return {{}, "its mesh has no volume: give it some thickness, or make it a sheet"};
     }
-    return {lattice.fill(design.material.density), {}};
+    return {lattice.fill(design.material), {}};
 }
 
 }  // namespace tactus

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
+#include "core/math/shortened.hpp"
 #include "core/soft/whole_turn.hpp"
 
 namespace tactus {
@@ -61,6 +63,49 @@ LanesMat3 deformation_of(const std::vector<Lanes>& places, const TetGroup& group
             column(group.gradient[0].z, group.gradient[1].z, group.gradient[2].z)};
 }
 
+std::array<LanesVec3, 8> corners_of(const std::vector<Lanes>& places, const CellGroup& group) {
+    std::array<LanesVec3, 8> corner;
+    std::ranges::transform(group.node, corner.begin(),
+                           [&](const auto& node) { return gathered(places, node); });
+    return corner;
+}
+
+LanesMat3 deformation_of(const std::vector<Lanes>& places, const CellGroup& group) {
+    const std::array<LanesVec3, 8> x = corners_of(places, group);
+    const LanesVec3 low = x[3] - x[0], low_cross = x[1] - x[2];
+    const LanesVec3 high = x[7] - x[4], high_cross = x[5] - x[6];
+    const LanesVec3 flat = low + high, cross = low_cross + high_cross;
+    const LanesVec3 up = (x[4] + x[5] + x[6] + x[7]) - (x[0] + x[1] + x[2] + x[3]);
+    return {(flat + cross) * group.slope.x, (flat - cross) * group.slope.y, up * group.slope.z};
+}
+
+// The rotation goes on towards that of F. With b = lambda V (tr(R^T F) - 3) - 2 mu V, the stress times the
+// volume is 2 mu V F + b R.
+LanesMat3 stress_of(const LanesMat3& f, Lanes shear, Lanes bulk, LanesQuat& turn) {
+    for (int i = 0; i < turns_a_step; ++i) {
+        turn = turned_towards(turn, f);
+    }
+    const LanesMat3 r = matrix_of(turn);
+    const Lanes b = multiply_subtract(bulk, common_trace(r, f) - splat(3.0), shear);
+    return {scaled_sum(f.x, shear, r.x, b), scaled_sum(f.y, shear, r.y, b), scaled_sum(f.z, shear, r.z, b)};
+}
+
+// V (mu |F - R|^2 + lambda / 2 (tr(R^T F) - 3)^2)
+Lanes energy_of(const LanesMat3& f, Lanes shear, Lanes bulk, LanesQuat turn) {
+    for (int i = 0; i < 4 * turns_a_step; ++i) {
+        turn = turned_towards(turn, f);
+    }
+    const LanesMat3 r = matrix_of(turn);
+    const LanesMat3 d{f.x - r.x, f.y - r.y, f.z - r.z};
+    const Lanes change = common_trace(r, f) - splat(3.0);
+    return splat(0.5) * (shear * common_trace(d, d) + bulk * change * change);
+}
+
+void push(SoftObstacle& obstacle, const Vec3& place, const Vec3& impulse) {
+    obstacle.impulse += impulse;
+    obstacle.turn += glm::cross(place - obstacle.pose.position, impulse);
+}
+
 struct SpringState {
     LanesVec3 sum;  // e
     Lanes length;   // |e|
@@ -76,13 +121,15 @@ SpringState state_of(const std::vector<Lanes>& places, const SpringGroup& group)
 
 }  // namespace
 
-SoftBody::SoftBody(std::shared_ptr<const SoftModel> model) : model_(std::move(model)) {
+SoftBody::SoftBody(std::shared_ptr<const SoftModel> model)
+    : iterations(model->iterations_within(max_iteration_time)), model_(std::move(model)) {
     const std::size_t count = model_->rest.size();
     for (std::vector<Lanes>* rows : {&place_, &velocity_, &next_, &inertial_, &seen_, &right_, &answers_}) {
         rows->assign(count, splat(0.0));
     }
-    turn_.resize(model_->tetrahedra.size());
+    turn_.resize(model_->tetrahedra.size() + model_->cells.size());
     answer_.resize(count);
+    supports_.resize(model_->anchors.size());
     reset();
 }
 
@@ -92,6 +139,7 @@ void SoftBody::reset() {
         velocity_[i] = splat(0.0);
     }
     std::ranges::fill(turn_, no_turn_lanes());
+    std::ranges::fill(supports_, Support{});
     still_ticks_ = 0;
 }
 
@@ -99,7 +147,7 @@ void SoftBody::go_on_from(const SoftBody& other) {
     std::ranges::copy(other.place_, place_.begin());
     std::ranges::copy(other.velocity_, velocity_.begin());
     std::ranges::copy(other.turn_, turn_.begin());
-    iterations = other.iterations;
+    std::ranges::copy(other.supports_, supports_.begin());
     wake();
 }
 
@@ -190,18 +238,11 @@ void SoftBody::find_compliance() {
     }
 }
 
-// f = -dE/dx: with b = lambda V (tr(R^T F) - 3) - 2 mu V, the stress times the volume is 2 mu V F + b R.
+// f = -dE/dx, here and in the next two.
 void SoftBody::add_tetrahedra() {
-    for (std::size_t g = 0; g < turn_.size(); ++g) {
+    for (std::size_t g = 0; g < model_->tetrahedra.size(); ++g) {
         const TetGroup& group = model_->tetrahedra[g];
-        const LanesMat3 f = deformation_of(seen_, group);
-        for (int i = 0; i < turns_a_step; ++i) {
-            turn_[g] = turned_towards(turn_[g], f);
-        }
-        const LanesMat3 r = matrix_of(turn_[g]);
-        const Lanes b = multiply_subtract(group.bulk, common_trace(r, f) - splat(3.0), group.shear);
-        const LanesMat3 stress{scaled_sum(f.x, group.shear, r.x, b), scaled_sum(f.y, group.shear, r.y, b),
-                               scaled_sum(f.z, group.shear, r.z, b)};
+        const LanesMat3 stress = stress_of(deformation_of(seen_, group), group.shear, group.bulk, turn_[g]);
         LanesVec3 sum = splat(Vec3(0.0));
         for (std::size_t c = 0; c < 3; ++c) {
             const LanesVec3& gradient = group.gradient[c];
@@ -214,6 +255,22 @@ void SoftBody::add_tetrahedra() {
     }
 }
 
+void SoftBody::add_cells() {
+    const std::size_t first = model_->tetrahedra.size();
+    for (std::size_t g = 0; g < model_->cells.size(); ++g) {
+        const CellGroup& group = model_->cells[g];
+        const LanesMat3 stress =
+            stress_of(deformation_of(seen_, group), group.shear, group.bulk, turn_[first + g]);
+        const LanesVec3 x = stress.x * group.slope.x, y = stress.y * group.slope.y,
+                        z = stress.z * group.slope.z;
+        const std::array<LanesVec3, 4> flat{x + y, y - x, x - y, (x + y) * splat(-1.0)};
+        for (std::size_t c = 0; c < 4; ++c) {
+            scatter(right_, group.node[c], flat[c] + z);
+            scatter(right_, group.node[c + 4], flat[c] - z);
+        }
+    }
+}
+
 void SoftBody::add_springs() {
     for (const SpringGroup& group : model_->springs) {
         const SpringState spring = state_of(seen_, group);
@@ -221,6 +278,21 @@ void SoftBody::add_springs() {
         const LanesVec3 pull = spring.sum * (group.stiffness * (rest - splat(1.0)));
         for (std::size_t c = 0; c < 4; ++c) {
             scatter(right_, group.node[c], pull * group.share[c]);
+        }
+    }
+}
+
+void SoftBody::add_force(const SoftAnchor& anchor, const Vec3& force) {
+    for (std::size_t k = 0; k < 4; ++k) {
+        const std::uint32_t node = anchor.node[k];
+        right_[node] += model_->held[node] != 0 ? splat(0.0) : row_of(force * anchor.weight[k]);
+    }
+}
+
+void SoftBody::add_supports() {
+    for (std::size_t v = 0; v < supports_.size(); ++v) {
+        if (supports_[v].force != Vec3(0.0)) {
+            add_force(model_->anchors[v], supports_[v].force);
         }
     }
 }
@@ -263,18 +335,26 @@ void SoftBody::press_contacts() {
     }
 }
 
-// One step towards where G is least. Elastic forces are taken ahead of x' by what damping sees, tau v'.
-void SoftBody::iterate() {
+// One step towards where G is least. Elastic forces are taken ahead of x' by what damping sees, tau v', but
+// not by what of it turns the whole body: straight on, that would stretch it.
+void SoftBody::iterate(std::span<SoftObstacle> obstacles) {
     const SoftModel& model = *model_;
     const double inverse_square = 1.0 / (model.design.seconds * model.design.seconds);
     const Lanes ahead = splat(model.design.material.damping / model.design.seconds);
     for (std::size_t n = 0; n < next_.size(); ++n) {
-        seen_[n] = multiply_add(next_[n] - place_[n], ahead, next_[n]);
+        right_[n] = next_[n] - place_[n];
+    }
+    WholeTurn whole(model, next_);
+    const Vec3 turned = whole.angle_of(right_);
+    for (std::size_t n = 0; n < next_.size(); ++n) {
+        seen_[n] = multiply_add(right_[n] - row_of(whole.way(turned, n)), ahead, next_[n]);
         right_[n] = splat(0.0);
     }
     add_tetrahedra();
+    add_cells();
     add_springs();
-    const WholeTurn whole(model, next_, right_, 1.0 + ahead[0]);
+    whole.put_under_stress(right_, 1.0 + ahead[0]);
+    add_supports();
     for (std::size_t n = 0; n < next_.size(); ++n) {
         const Lanes inertial = (inertial_[n] - next_[n]) * splat(model.mass[n] * inverse_square);
         right_[n] = model.held[n] != 0 ? splat(0.0) : right_[n] + inertial;
@@ -286,44 +366,122 @@ void SoftBody::iterate() {
     if (contact_count_ > 0) {
         press_contacts();
     }
+    if (!obstacles.empty()) {
+        bear(whole, obstacles);
+    }
 }
 
-// Vertices that have entered are put back onto the surface, their nodes by their share and the less the
-// heavier they are; along it they stick as long as friction bears it.
+SoftBody::AtObstacle SoftBody::at(std::size_t vertex, const SoftObstacle& obstacle) const {
+    const SoftAnchor& anchor = model_->anchors[vertex];
+    Lanes place = splat(0.0), before = splat(0.0);
+    for (std::size_t k = 0; k < 4; ++k) {
+        const Lanes weight = splat(anchor.weight[k]);
+        place = multiply_add(next_[anchor.node[k]], weight, place);
+        before = multiply_add(place_[anchor.node[k]], weight, before);
+    }
+    const SolidDistance found = distance_to_solid(*obstacle.solid, to_local(obstacle.pose, vector_of(place)));
+    const Vec3 carried = to_parent(obstacle.pose, to_local(obstacle.previous, vector_of(before)));
+    const Vec3 normal = direction_to_parent(obstacle.pose, found.normal);
+    const Vec3 slipped = vector_of(place) - carried;
+    return {vector_of(place), normal, found.distance, slipped - normal * glm::dot(slipped, normal)};
+}
+
+// What solids that do not give way bear the surface by goes on from step to step, so that the solve knows it
+// and at rest nothing moves. In each step it takes one step towards what brings every vertex that is borne
+// onto its solid, along the change p that would do so if each were alone, by the share at which the ways q of
+// all together fit best: sum p . (apart + share q) = 0.
+void SoftBody::bear(const WholeTurn& whole, std::span<SoftObstacle> obstacles) {
+    std::ranges::fill(right_, splat(0.0));
+    double gained = 0.0;  // - sum p . apart
+    for (std::size_t i = 0; i < obstacles.size(); ++i) {
+        gained += obstacles[i].inverse_mass == 0.0 ? change_supports(obstacles[i], i) : 0.0;
+    }
+    double share = 0.0;
+    if (gained > 0.0) {
+        whole.solve(right_);
+        double lost = 0.0;  // sum p . q
+        for (std::size_t v = 0; v < supports_.size(); ++v) {
+            for (std::size_t k = 0; k < 4 && supports_[v].change != Vec3(0.0); ++k) {
+                lost += model_->anchors[v].weight[k] *
+                        glm::dot(supports_[v].change, vector_of(right_[model_->anchors[v].node[k]]));
+            }
+        }
+        share = std::min(1.0, gained / lost);
+    }
+    for (std::size_t n = 0; n < next_.size(); ++n) {
+        next_[n] = multiply_add(right_[n], splat(share), next_[n]);
+    }
+    for (std::size_t v = 0; v < supports_.size(); ++v) {
+        Support& support = supports_[v];
+        support.force += std::exchange(support.change, Vec3(0.0)) * share;
+        if (support.force != Vec3(0.0)) {
+            SoftObstacle& obstacle = obstacles[support.obstacle];
+            push(obstacle, at(v, obstacle).place, support.force * -model_->design.seconds);
+        }
+    }
+}
+
+// A solid never pulls, and holds along its surface as far as friction bears. Returns - sum p . apart.
+double SoftBody::change_supports(const SoftObstacle& obstacle, std::size_t index) {
+    const SoftModel& model = *model_;
+    double gained = 0.0;
+    for (std::size_t v = 0; v < supports_.size(); ++v) {
+        Support& support = supports_[v];
+        const bool bears = support.obstacle == index && support.force != Vec3(0.0);
+        if (!bears && support.force + support.change != Vec3(0.0)) {
+            continue;  // another bears it
+        }
+        const SoftAnchor& anchor = model.anchors[v];
+        double give = 0.0;  // way of the vertex by a unit force if nothing else moved
+        for (std::size_t k = 0; k < 4; ++k) {
+            const std::uint32_t node = anchor.node[k];
+            give += model.held[node] != 0 ? 0.0 : anchor.weight[k] * anchor.weight[k] / model.firmness[node];
+        }
+        const AtObstacle found = at(v, obstacle);
+        if (give <= 0.0 || (found.distance >= 0.0 && !bears)) {
+            continue;
+        }
+        const Vec3 apart = found.normal * found.distance + found.slipped;
+        const Vec3 wanted = support.force - apart / give;
+        const double pressing = std::max(0.0, glm::dot(wanted, found.normal));
+        const Vec3 holding = wanted - found.normal * glm::dot(wanted, found.normal);
+        support.obstacle = index;
+        support.change =
+            found.normal * pressing + shortened(holding, obstacle.friction * pressing) - support.force;
+        gained -= glm::dot(support.change, apart);
+        add_force(anchor, support.change);
+    }
+    return gained;
+}
+
+// Vertices that are in a solid still are put back onto its surface, their nodes by their share and the less
+// the heavier they are; along it they stick as long as friction bears it.
 void SoftBody::keep_out(SoftObstacle& obstacle) {
     const SoftModel& model = *model_;
-    for (const SoftAnchor& anchor : model.anchors) {
-        Lanes place = splat(0.0), before = splat(0.0);
+    for (std::size_t v = 0; v < supports_.size(); ++v) {
+        const SoftAnchor& anchor = model.anchors[v];
+        const AtObstacle found = at(v, obstacle);
+        if (found.distance >= 0.0) {
+            continue;
+        }
         double give = 0.0;  // way of the vertex by a unit impulse over a unit time
         for (std::size_t k = 0; k < 4; ++k) {
             const std::uint32_t node = anchor.node[k];
-            place = multiply_add(next_[node], splat(anchor.weight[k]), place);
-            before = multiply_add(place_[node], splat(anchor.weight[k]), before);
             give += model.held[node] != 0 ? 0.0 : anchor.weight[k] * anchor.weight[k] / model.mass[node];
         }
-        const Vec3 local = to_local(obstacle.pose, vector_of(place));
-        const SolidDistance found = distance_to_solid(*obstacle.solid, local);
-        if (found.distance >= 0.0 || give <= 0.0) {
+        if (give <= 0.0) {
             continue;
         }
-        const Vec3 normal = direction_to_parent(obstacle.pose, found.normal);
-        const Vec3 carried = to_parent(obstacle.pose, to_local(obstacle.previous, vector_of(before)));
-        const Vec3 slipped = vector_of(place) - carried;
-        const Vec3 across = slipped - normal * glm::dot(slipped, normal);
-        const double most = obstacle.friction * -found.distance;
-        const double length = glm::length(across);
-        const Vec3 held = across * (length > most ? most / length : 1.0);
+        const Vec3 held = shortened(found.slipped, obstacle.friction * -found.distance);
         const double share = give / (give + obstacle.inverse_mass);
-        const Vec3 back = (normal * -found.distance - held) * share;
+        const Vec3 back = (found.normal * -found.distance - held) * share;
         for (std::size_t k = 0; k < 4; ++k) {
             const std::uint32_t node = anchor.node[k];
             if (model.held[node] == 0) {
                 next_[node] += row_of(back * (anchor.weight[k] / (model.mass[node] * give)));
             }
         }
-        const Vec3 impulse = back * (-1.0 / (give * model.design.seconds));
-        obstacle.impulse += impulse;
-        obstacle.turn += glm::cross(vector_of(place) - obstacle.pose.position, impulse);
+        push(obstacle, found.place, back * (-1.0 / (give * model.design.seconds)));
     }
 }
 
@@ -362,10 +520,15 @@ std::uint32_t SoftBody::step(const Vec3& gravity, std::span<const SoftPush> push
         next_[n] = model_->held[n] != 0 ? place_[n] : multiply_add(velocity_[n], seconds, place_[n]);
         inertial_[n] = next_[n] + fall;
     }
+    for (Support& support : supports_) {
+        const bool stands =
+            support.obstacle < obstacles.size() && obstacles[support.obstacle].inverse_mass == 0.0;
+        support = stands ? support : Support{};
+    }
     begin_contacts(pushes);
     find_compliance();
     for (int i = 0; i < iterations; ++i) {
-        iterate();
+        iterate(i + 1 == iterations ? obstacles : std::span<SoftObstacle>());
     }
     for (SoftObstacle& obstacle : obstacles) {
         keep_out(obstacle);
@@ -386,18 +549,14 @@ SoftEnergy SoftBody::energy() const {
     const auto add = [&](const Lanes& values) {
         energy.elastic += values[0] + values[1] + values[2] + values[3];
     };
-    for (std::size_t g = 0; g < turn_.size(); ++g) {
-        const TetGroup& group = model_->tetrahedra[g];
-        const LanesMat3 f = deformation_of(place_, group);
-        LanesQuat turn = turn_[g];
-        for (int i = 0; i < 4 * turns_a_step; ++i) {
-            turn = turned_towards(turn, f);
+    const auto add_elements = [&](const auto& groups, std::size_t first) {
+        for (std::size_t g = 0; g < groups.size(); ++g) {
+            add(energy_of(deformation_of(place_, groups[g]), groups[g].shear, groups[g].bulk,
+                          turn_[first + g]));
         }
-        const LanesMat3 r = matrix_of(turn);
-        const LanesMat3 d{f.x - r.x, f.y - r.y, f.z - r.z};
-        const Lanes change = common_trace(r, f) - splat(3.0);
-        add(splat(0.5) * (group.shear * common_trace(d, d) + group.bulk * change * change));
-    }
+    };
+    add_elements(model_->tetrahedra, 0);
+    add_elements(model_->cells, model_->tetrahedra.size());
     for (const SpringGroup& group : model_->springs) {
         const Lanes longer = state_of(place_, group).length - group.length;
         add(splat(0.5) * group.stiffness * longer * longer);

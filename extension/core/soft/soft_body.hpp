@@ -35,6 +35,7 @@
 
 #include "core/geometry/solid.hpp"
 #include "core/soft/soft_model.hpp"
+#include "core/soft/whole_turn.hpp"
 
 namespace tactus {
 
@@ -105,7 +106,7 @@ public:
     void put(std::size_t node, const Vec3& place, const Vec3& velocity);
     SoftEnergy energy() const;
 
-    int iterations = 1;  // of a step, >= 1
+    int iterations;  // of a step, >= 1
 
 private:
     static constexpr int ticks_to_sleep = 256;
@@ -121,19 +122,40 @@ private:
         Vec3 force{0.0};  // (unit: newtons)
     };
 
+    // What bears a vertex of the surface.
+    struct Support {
+        Vec3 force{0.0};           // (unit: newtons)
+        std::size_t obstacle = 0;  // by its place among those of the step
+        Vec3 change{0.0};          // of the force, in the step that is made
+    };
+
+    // A vertex of the surface, at the step's end.
+    struct AtObstacle {
+        Vec3 place, normal;
+        double distance;
+        Vec3 slipped;  // along the solid's surface, since the step's begin
+    };
+
     void begin_contacts(std::span<const SoftPush> pushes);
     void find_compliance();
     void add_tetrahedra();
+    void add_cells();
     void add_springs();
-    void iterate();
+    void iterate(std::span<SoftObstacle> obstacles);
     void press_contacts();
     Vec3 way_of(const Contact& contact) const;
+    void add_supports();
+    void add_force(const SoftAnchor& anchor, const Vec3& force);
+    AtObstacle at(std::size_t vertex, const SoftObstacle& obstacle) const;
+    void bear(const WholeTurn& whole, std::span<SoftObstacle> obstacles);
+    double change_supports(const SoftObstacle& obstacle, std::size_t index);
     void keep_out(SoftObstacle& obstacle);
     bool finish();
 
     std::shared_ptr<const SoftModel> model_;
     std::vector<Lanes> place_, velocity_;  // by node: x, y, z
-    std::vector<LanesQuat> turn_;          // of each group of tetrahedra
+    std::vector<Support> supports_;        // by vertex of the surface
+    std::vector<LanesQuat> turn_;          // of each group of tetrahedra, then of cells
     // Of the step that is made.
     std::vector<Lanes> next_;      // x'
     std::vector<Lanes> inertial_;  // y

@@ -40,8 +40,8 @@ using Tetrahedron = std::array<std::uint32_t, 4>;
 // What a model is made from. The same makes the same one, to the last bit.
 struct SoftDesign {
     enum class Form : std::uint8_t {
-        volume,      // cut into cells of about the `cells`th part of its longest side, those into six
-                     // tetrahedra each; cells that the surface cuts count by their share of the volume
+        volume,      // cut into cells of about the `cells`th part of its longest side; cells that the
+                     // surface cuts count by their share of the volume
         sheet,       // cloth, or any other: it stretches along its edges and bends across them
         tetrahedra,  // that are given; touched where no two of them meet
     };

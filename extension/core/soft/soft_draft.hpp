@@ -12,13 +12,22 @@ struct SoftDraft {
         double stiffness = 0.0, length = 0.0;
     };
 
+    // A box of a lattice. Corner c lies at (c & 1, c >> 1 & 1, c >> 2) of its size.
+    struct Cell {
+        std::array<std::uint32_t, 8> node{};
+        double filled = 1.0;  // share of it that is made of something, above 0
+    };
+
     std::vector<Vec3> nodes;
     std::vector<double> mass;             // of the nodes
     std::vector<Tetrahedron> tetrahedra;  // wound right
-    std::vector<double> filled;           // share of each that is made of something, above 0
+    std::vector<Cell> cells;
+    Vec3 cell_size{0.0};  // of all cells (unit: meters)
     std::vector<Spring> springs;
     std::vector<SoftAnchor> anchors;
     TriangleMesh surface;
+
+    std::size_t element_count() const { return tetrahedra.size() + cells.size() + springs.size(); }
 };
 
 double tetrahedron_volume(std::span<const Vec3> nodes, const Tetrahedron& corners);

@@ -34,6 +34,15 @@ struct TetGroup {
     Lanes bulk;                                          // lambda V (unit: joules)
 };
 
+// Four cells of a lattice, boxes at rest. F is the mean over the cell: along each axis, the sum over the four
+// edges. Corners as in SoftDraft::Cell.
+struct CellGroup {
+    std::array<std::array<std::uint32_t, 4>, 8> node{};  // by corner and lane
+    LanesVec3 slope;                                     // a quarter over the edges (unit: 1/meter)
+    Lanes shear;                                         // 2 mu V (unit: joules)
+    Lanes bulk;                                          // lambda V (unit: joules)
+};
+
 // Four springs over the sum of up to four nodes, e = sum of c_i x_i: k / 2 (|e| - L)^2. Edges stretch by two
 // nodes, hinges between two triangles bend by four.
 struct SpringGroup {
@@ -60,17 +69,29 @@ struct FreeTurn {
 struct SoftModel {
     std::vector<Vec3> rest;          // nodes, in the order of elimination
     std::vector<double> mass;        // of the nodes (unit: kilograms)
+    std::vector<double> firmness;    // diagonal of the matrix of every step (unit: newtons per meter)
     std::vector<std::uint8_t> held;  // by node: not 0 where it stays
     FreeTurn free_turn;
     std::vector<TetGroup> tetrahedra;
+    std::vector<CellGroup> cells;
     std::vector<SpringGroup> springs;
     std::vector<SoftAnchor> anchors;  // by vertex of the surface
     TriangleMesh surface;             // at rest
-    std::size_t element_count = 0;    // tetrahedra and springs
+    std::size_t element_count = 0;    // tetrahedra, cells and springs
     bool closed = false;              // the surface bounds a volume
     SparseFactor factor;
     double size = 0.0;  // diagonal of the box around it (unit: meters)
+    // After so many iterations a step leaves at most a fiftieth of what the bound adds to the inertia of a
+    // turn of its parts.
+    int wanted_iterations = 1;
     SoftDesign design;
+
+    // What an iteration and a solve take, about (docs/soft.md; unit: seconds). Part of the results, as any
+    // budget: not to be measured where it runs.
+    double solve_time() const { return 1.5e-9 * static_cast<double>(factor.entries()); }
+    double iteration_time() const { return 26e-9 * static_cast<double>(element_count) + solve_time(); }
+    // As many as are wanted and fit in `seconds`; at least one.
+    int iterations_within(double seconds) const;
 
     double total_mass() const;
     bool is_free() const;  // held nowhere
@@ -80,6 +101,7 @@ struct SoftModel {
 constexpr std::size_t max_soft_elements = 12'000;
 constexpr std::size_t max_soft_nodes = 4'096;
 constexpr std::size_t max_factor_entries = 250'000;
+constexpr double max_iteration_time = 1e-4;  // of all iterations, beyond the first (unit: seconds)
 
 struct SoftModelResult {
     std::shared_ptr<const SoftModel> model;  // null where there is an error

@@ -19,26 +19,39 @@ Vec3 center_of_mass(const SoftModel& model, std::span<const Lanes> places) {
 
 }  // namespace
 
-WholeTurn::WholeTurn(const SoftModel& model, std::span<const Lanes> places, std::span<const Lanes> elastic,
-                     double stretch)
-    : model_(model), places_(places) {
+WholeTurn::WholeTurn(const SoftModel& model, std::span<const Lanes> places) : model_(model), places_(places) {
     if (!is_free()) {
         return;
     }
     const FreeTurn& free = model.free_turn;
     pivot_ = free.about == FreeTurn::About::itself ? center_of_mass(model, places) : free.pivot;
     Mat3 products(0.0);  // sum m q q^T
-    double under_stress = 0.0;
     for (std::size_t n = 0; n < places.size(); ++n) {
         if (model.held[n] == 0) {
             const Vec3 q = vector_of(places[n]) - pivot_;
             products += glm::outerProduct(q, model.mass[n] * q);
-            under_stress += glm::length(q) * glm::length(vector_of(elastic[n]));
         }
     }
-    const double seconds = model.design.seconds;
-    const double trace = products[0][0] + products[1][1] + products[2][2];
-    const Mat3 inertia = Mat3(trace + seconds * seconds * stretch * under_stress) - products;
+    inertia_ = Mat3(products[0][0] + products[1][1] + products[2][2]) - products;
+    set_inertia(inertia_);
+}
+
+void WholeTurn::put_under_stress(std::span<const Lanes> elastic, double stretch) {
+    if (!is_free()) {
+        return;
+    }
+    double under_stress = 0.0;
+    for (std::size_t n = 0; n < places_.size(); ++n) {
+        if (model_.held[n] == 0) {
+            under_stress += glm::length(vector_of(places_[n]) - pivot_) * glm::length(vector_of(elastic[n]));
+        }
+    }
+    const double seconds = model_.design.seconds;
+    set_inertia(inertia_ + Mat3(seconds * seconds * stretch * under_stress));
+}
+
+void WholeTurn::set_inertia(const Mat3& inertia) {
+    const FreeTurn& free = model_.free_turn;
     by_moment_ = free.about == FreeTurn::About::line
                      ? glm::outerProduct(free.axis, free.axis) / glm::dot(free.axis, inertia * free.axis)
                      : glm::inverse(inertia);

@@ -33,10 +33,16 @@ inline Vec3 vector_of(const Lanes& row) {
 
 class WholeTurn {
 public:
-    // `places` and `elastic`: of the nodes, and the elastic forces on
-    // them; both outlive it. `stretch`: by how much of a way the elastic forces see.
-    WholeTurn(const SoftModel& model, std::span<const Lanes> places, std::span<const Lanes> elastic,
-              double stretch);
+    // `places` of the nodes; they outlive it.
+    WholeTurn(const SoftModel& model, std::span<const Lanes> places);
+
+    // What the body turns by as a whole where its nodes go such ways (unit: radians), and the way of a node
+    // by that (unit: meters).
+    Vec3 angle_of(std::span<const Lanes> ways) const { return is_free() ? by_ways(ways) : Vec3(0.0); }
+    Vec3 way(const Vec3& angle, std::size_t node) const;
+
+    // From here on under these elastic forces on the nodes. `stretch`: by how much of a way they see.
+    void put_under_stress(std::span<const Lanes> elastic, double stretch);
 
     // Forces on the nodes become their ways (unit: meters).
     void solve(std::vector<Lanes>& rows) const;
@@ -47,12 +53,12 @@ private:
     Vec3 by_forces(std::span<const Lanes> forces) const;
     // J^-1 sum q x M d.
     Vec3 by_ways(std::span<const Lanes> ways) const;
-    // z(a) of a node.
-    Vec3 way(const Vec3& angle, std::size_t node) const;
+    void set_inertia(const Mat3& inertia);
 
     const SoftModel& model_;
     std::span<const Lanes> places_;
     Vec3 pivot_{0.0};
+    Mat3 inertia_{0.0};    // (unit: kilogram square meters)
     Mat3 by_moment_{0.0};  // J^-1 along what is free to turn, else 0 (unit: 1 / (kilogram square meters))
 };
 

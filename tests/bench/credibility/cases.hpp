@@ -119,5 +119,6 @@ void measure_hand(Results& results);
 void measure_slowed(Results& results);
 void measure_joints(Results& results);
 void measure_stacks(Results& results);
+void measure_soft(Results& results);
 
 }  // namespace tactus::bench

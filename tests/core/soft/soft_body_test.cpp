@@ -387,6 +387,130 @@ TEST(SoftBody, APlateSwingsAboutItsEdgeAsARigidOne) {
     }
 }
 
+// A cantilever of Poisson's ratio 0: Euler's beam.
+struct Beam {
+    static constexpr double length = 0.2, side = 0.02;
+    SoftBody body;
+    double stiffness;
+
+    Beam(double youngs_modulus, double damping, double drag, int cells)
+        : body(made(youngs_modulus, damping, drag, cells)), stiffness(youngs_modulus) {}
+
+    static SoftBody made(double youngs_modulus, double damping, double drag, int cells) {
+        const SoftMaterial material{
+            .stiffness = youngs_modulus, .poisson_ratio = 0.0, .damping = damping, .drag = drag};
+        const Vec3 half = 0.5 * Vec3(length, side, side);
+        SoftModelResult made = make_soft_volume(shared::grid_box(half, 1), cells, material,
+                                                {Vec3(-1.0), Vec3(1e-4 - half.x, 1.0, 1.0), {}}, tick);
+        EXPECT_EQ(made.error, "");
+        return SoftBody(std::move(made.model));
+    }
+    double mean_at_end(std::span<const Lanes> rows) const {
+        double sum = 0.0;
+        int count = 0;
+        for (std::size_t n = 0; n < rows.size(); ++n) {
+            if (body.model().rest[n].x > 0.4999 * length) {
+                sum += rows[n][1];
+                ++count;
+            }
+        }
+        return sum / count;
+    }
+    double first_period() const {
+        return 2.0 * std::numbers::pi * length * length /
+               (3.516 * std::sqrt(stiffness * side * side / (12.0 * 1000.0)));
+    }
+};
+
+TEST(SoftBody, ACantileverSagsAsABeamWhateverItsCells) {
+    for (const int cells : {4, 8, 16}) {
+        Beam beam(1e6, 0.02, 5.0, cells);
+        const double pull = 0.5;
+        for (int i = 0; i < 8000; ++i) {
+            beam.body.step(Vec3(0.0, -pull, 0.0), {}, {});
+        }
+        const double bending =
+            1.5 * 1000.0 * pull * std::pow(Beam::length, 4) / (1e6 * Beam::side * Beam::side);
+        EXPECT_NEAR(-beam.mean_at_end(beam.body.places()), bending, 0.1 * bending) << cells << " cells";
+    }
+}
+
+TEST(SoftBody, ACantileverSwingsAsABeam) {
+    for (const double stiffness : {1e5, 1e6, 1e7}) {
+        Beam beam(stiffness, 2e-3, 0.0, 8);
+        const double wanted = beam.first_period();
+        for (std::size_t n = 0; n < beam.body.places().size(); ++n) {
+            const Vec3 rest = beam.body.model().rest[n];
+            const double along = rest.x / Beam::length + 0.5;
+            beam.body.put(n, rest, {0.0, 0.01 / wanted * along * along, 0.0});
+        }
+        double before = 0.0, first = 0.0, last = 0.0;
+        int count = 0;
+        for (int i = 0; i * tick < 5.0 * wanted; ++i) {
+            beam.body.step(Vec3(0.0), {}, {});
+            const double now = beam.mean_at_end(beam.body.velocities());
+            if (now * before < 0.0) {
+                last = (i + now / (before - now)) * tick;
+                first = count++ == 0 ? last : first;
+            }
+            before = now;
+        }
+        ASSERT_GT(count, 3);
+        EXPECT_NEAR(2.0 * (last - first) / (count - 1), wanted, 0.05 * wanted) << stiffness << " Pa";
+    }
+}
+
+// A rigid one has 5/7 g sin. What is soft goes as far as that says where it hardly flattens; and it gains no
+// energy from damping that would take its turn for a stretch.
+TEST(SoftBody, ABallRollsAsARigidOne) {
+    constexpr double radius = 0.03, angle = 0.15, seconds = 0.6;
+    for (const double damping : {0.0, 0.02}) {
+        const SoftMaterial material{.stiffness = 3e4, .damping = damping, .drag = 0.0, .friction = 1.0};
+        SoftModelResult made = make_soft_volume(shared::icosphere(4, radius), 8, material, {}, tick);
+        ASSERT_EQ(made.error, "");
+        SoftBody ball(std::move(made.model));
+        const Solid floor = PlaneShape{};
+        const Pose place{Vec3(0.0, -radius, 0.0)};
+        SoftObstacle ground{&floor, place, place, 1.0};
+        const auto roll = [&](double slope, double time) {
+            for (int i = 0; i * tick < time; ++i) {
+                ball.step(9.81 * Vec3(std::sin(slope), -std::cos(slope), 0.0), {}, {&ground, 1});
+            }
+            return momentum_of(ball).linear.x / ball.model().total_mass();
+        };
+        const double before = roll(0.0, 0.5);
+        const double gained = roll(angle, seconds) - before;
+        const double rigid = 5.0 / 7.0 * 9.81 * std::sin(angle) * seconds;
+        EXPECT_LT(gained, 1.05 * rigid);
+        EXPECT_GT(gained, damping == 0.0 ? 0.95 * rigid : 0.0);
+    }
+}
+
+// It is not sunk in, and the ground bears what it weighs.
+TEST(SoftBody, ABallLiesOnTheGroundAsItsStiffnessSays) {
+    constexpr double radius = 0.05;
+    SoftModelResult made = make_soft_volume(shared::icosphere(4, radius), 8, {.stiffness = 3e5}, {}, tick);
+    ASSERT_EQ(made.error, "");
+    SoftBody ball(std::move(made.model));
+    const Solid floor = PlaneShape{};
+    const Pose place{Vec3(0.0, -radius, 0.0)};
+    SoftObstacle ground{&floor, place, place, 0.5};
+    for (int i = 0; i < 1500; ++i) {
+        ground.impulse = Vec3(0.0);
+        ball.step(earth, {}, {&ground, 1});
+    }
+    Vec3 middle(0.0);
+    for (std::size_t n = 0; n < ball.places().size(); ++n) {
+        middle += ball.model().mass[n] / ball.model().total_mass() * at(ball.places()[n]);
+    }
+    const double weight = ball.model().total_mass() * 9.81;
+    EXPECT_NEAR(ground.impulse.y / tick, -weight, 0.02 * weight);
+    // Hertz: d^1.5 = 3 F (1 - nu^2) / (4 E sqrt(R)).
+    const double sunk = std::pow(0.75 * weight * (1.0 - 0.09) / (3e5 * std::sqrt(radius)), 2.0 / 3.0);
+    EXPECT_LT(-middle.y, 1.5 * sunk);
+    EXPECT_GT(-middle.y, 0.5 * sunk);
+}
+
 TEST(SoftBody, APushNeverPulls) {
     SoftBody body = block({}, below(-0.039));
     const std::uint32_t triangle = triangle_near(body, Vec3(0.0, 0.04, 0.0));
