@@ -12,8 +12,9 @@ namespace {
 constexpr int default_cells = 8;
 constexpr double density = 1000.0;
 
-SoftBody made_of(const TriangleMesh& mesh, const SoftMaterial& material, const HeldParts& held) {
-    SoftModelResult made = make_soft_volume(mesh, default_cells, material, held, tick);
+SoftBody made_of(const TriangleMesh& mesh, const SoftMaterial& material, const HeldParts& held,
+                 int cells = default_cells) {
+    SoftModelResult made = make_soft_volume(mesh, cells, material, held, tick);
     if (made.model == nullptr) {
         std::fprintf(stderr, "%s\n", made.error.c_str());
         std::exit(1);
@@ -117,6 +118,31 @@ void measure_beam(Results& results, const std::string& name, double stiffness) {
              right);
 }
 
+// Force over way of a hand's spring that presses the middle of a block's top, 10 mm far.
+double press_stiffness(int cells) {
+    constexpr double half = 0.04, spring = 500.0;
+    SoftBody block =
+        made_of(shared::grid_box(Vec3(half), 8), {.stiffness = 1e4, .damping = 0.02, .drag = 5.0},
+                {Vec3(-1.0), Vec3(1.0, 1e-3 - half, 1.0), {}}, cells);
+    const Vec3 middle(1.0 / 3.0);
+    std::uint32_t nearest = 0;
+    const auto distance_of = [&](std::uint32_t triangle) {
+        return glm::length(block.surface_point(triangle, middle) - Vec3(0.0, half, 0.0));
+    };
+    for (std::uint32_t t = 1; t < block.model().surface.triangles.size(); ++t)
+        nearest = distance_of(t) < distance_of(nearest) ? t : nearest;
+    const Vec3 start = block.surface_point(nearest, middle);
+    Vec3 hand = start;
+    for (int i = 0; i < 1500; ++i) {
+        const Vec3 way(0.0, i < 100 ? -1e-4 : 0.0, 0.0);
+        const Vec3 force = spring * (hand - block.surface_point(nearest, middle));
+        const SoftPush push{nearest, middle, force, spring, 0.0, way / tick, true};
+        hand += way;
+        block.step(Vec3(0.0), {&push, 1}, {});
+    }
+    return glm::length(block.pressed(0)) / glm::length(block.surface_point(nearest, middle) - start);
+}
+
 }  // namespace
 
 void measure_soft(Results& results) {
@@ -129,6 +155,8 @@ void measure_soft(Results& results) {
     measure_beam(results, "100kPa", 1e5);
     measure_beam(results, "1MPa", 1e6);
     measure_beam(results, "10MPa", 1e7);
+    for (const int cells : {2, 4, 6, 8, 10, 12})
+        results.add("soft_press.stiffness_" + std::to_string(cells) + "_cells", press_stiffness(cells));
 }
 
 }  // namespace tactus::bench
