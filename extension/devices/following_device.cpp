@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/math/body_motion.hpp"
+
 namespace tactus {
 
 namespace {
@@ -30,15 +32,24 @@ Follower follow(const Follower& from, const Vec3& target, double rate, double se
     return {target + decay * (offset + seconds * c), decay * (from.velocity - rate * seconds * c)};
 }
 
+TurnFollower follow(const TurnFollower& from, const Quat& target, double rate, double seconds) {
+    const Vec3 offset = turn_vector(from.rotation * glm::conjugate(target));
+    const Follower now = follow({offset, from.velocity}, Vec3(0.0), rate, seconds);
+    return {glm::normalize(turn_by(now.position, 1.0) * target), now.velocity};
+}
+
 FollowingDevice::FollowingDevice(const Settings& settings)
     : rate_(settings.rate),
+      rotates_(settings.rotates),
       targets_(HandTarget{settings.rest, 0, settings.is_there}),
       hand_{settings.rest, Vec3(0.0)} {}
 
 // The target of the time since the last tick is the one known then: what has just come in counts from now on.
 DeviceSample FollowingDevice::read(Nanoseconds now) {
     if (started_) {
-        hand_ = follow(hand_, targets_.front().position, rate_, to_seconds(now - previous_));
+        const double seconds = to_seconds(now - previous_);
+        hand_ = follow(hand_, targets_.front().position, rate_, seconds);
+        turn_ = rotates_ ? follow(turn_, targets_.front().rotation, rate_, seconds) : turn_;
     }
     started_ = true;
     previous_ = now;
@@ -47,6 +58,7 @@ DeviceSample FollowingDevice::read(Nanoseconds now) {
     DeviceSample sample;
     sample.position = hand_.position;
     sample.velocity = hand_.velocity;
+    sample.rotation = turn_.rotation;
     sample.buttons = targets_.front().buttons;
     sample.connected = targets_.front().is_there;
     return sample;

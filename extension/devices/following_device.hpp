@@ -14,9 +14,10 @@
 namespace tactus {
 
 struct HandTarget {
-    Vec3 position{0.0};         // where the hand is wanted, in the device's own frame (unit: meters)
-    std::uint32_t buttons = 0;  // bit i: button i is held
-    bool is_there = true;       // false: what leads the hand is missing, and the hand with it
+    Vec3 position{0.0};                 // where the hand is wanted, in the device's own frame (unit: meters)
+    std::uint32_t buttons = 0;          // bit i: button i is held
+    bool is_there = true;               // false: what leads the hand is missing, and the hand with it
+    Quat rotation{1.0, 0.0, 0.0, 0.0};  // of the handle
 };
 
 // No hand goes farther from the origin (unit: meters).
@@ -43,12 +44,20 @@ struct Follower {
 };
 Follower follow(const Follower& from, const Vec3& target, double rate, double seconds);
 
+// The same of a rotation: x is the rotation vector from the target to it.
+struct TurnFollower {
+    Quat rotation{1.0, 0.0, 0.0, 0.0};
+    Vec3 velocity{0.0};  // (unit: radians per second)
+};
+TurnFollower follow(const TurnFollower& from, const Quat& target, double rate, double seconds);
+
 class FollowingDevice final : public Device {
 public:
     struct Settings {
         Vec3 rest{0.0};        // where the hand waits for the first target (unit: meters)
         double rate = 80.0;    // ω (unit: 1/s), > 0: nine tenths of a jump are made up in 3.9/ω, 49 ms
         bool is_there = true;  // before the first target
+        bool rotates = false;  // its targets have a rotation
     };
 
     explicit FollowingDevice(const Settings& settings);
@@ -56,13 +65,16 @@ public:
     // The newest target wins; the hand holds still at it until there is another.
     void aim(const HandTarget& target) { targets_.publish(target); }
 
+    DeviceCapabilities capabilities() const override { return {.rotates = rotates_}; }
     DeviceSample read(Nanoseconds now) override;
     void write(Nanoseconds, const Vec3&) override {}
 
 private:
     double rate_;
+    bool rotates_;
     TripleBuffer<HandTarget> targets_;
     Follower hand_;
+    TurnFollower turn_;
     Nanoseconds previous_ = 0;
     bool started_ = false;
 };

@@ -302,7 +302,7 @@ void HapticDevice::lead_hand() {
         hand_.steer(from_view(*this, input.deflection), steering_, get_process_delta_time(), workspace(),
                     input.buttons, is_there);
     } else if (const Node3D* led_by = target_node()) {
-        hand_.lead(from_godot(led_by->get_global_position()), workspace(), buttons_of(*led_by));
+        hand_.lead(pose_of(led_by->get_global_transform()), workspace(), buttons_of(*led_by));
     }
 }
 

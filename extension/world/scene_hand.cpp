@@ -1,6 +1,7 @@
 #include "world/scene_hand.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <numeric>
 #include <utility>
@@ -43,7 +44,9 @@ SceneHand::SceneHand(HandPlan plan, const Workspace& mapping) : pointed_at_(plan
     } else {
         aimed_at_ = in_device(mapping, plan.start);
         follower_ = std::make_shared<FollowingDevice>(
-            FollowingDevice::Settings{.rest = aimed_at_, .is_there = !may_be_missing(plan.kind)});
+            FollowingDevice::Settings{.rest = aimed_at_,
+                                      .is_there = !may_be_missing(plan.kind),
+                                      .rotates = plan.kind == HandKind::node});
         port_ = follower_;
     }
 }
@@ -54,9 +57,12 @@ void SceneHand::change(const ArmSettings& arm) {
     }
 }
 
-void SceneHand::lead(const Vec3& place, const Workspace& mapping, std::uint32_t buttons) {
-    if (glm::length(place) < farthest_hand) {
-        aim(in_device(mapping, place), buttons);
+void SceneHand::lead(const Pose& place, const Workspace& mapping, std::uint32_t buttons) {
+    if (std::isfinite(glm::dot(place.rotation, place.rotation))) {  // a node may be scaled to nothing
+        turned_to_ = glm::conjugate(mapping.pose.rotation) * place.rotation;
+    }
+    if (glm::length(place.position) < farthest_hand) {
+        aim(in_device(mapping, place.position), buttons);
     } else {
         aim(aimed_at_, 0, false);
     }
@@ -65,7 +71,7 @@ void SceneHand::lead(const Vec3& place, const Workspace& mapping, std::uint32_t 
 void SceneHand::aim(const Vec3& place, std::uint32_t buttons, bool is_there) {
     if (is_led()) {
         aimed_at_ = place;
-        follower_->aim({place, buttons, is_there});
+        follower_->aim({place, buttons, is_there, turned_to_});
     }
 }
 

@@ -77,8 +77,8 @@ public:
 
     // Where a hand goes that is led; any other hears none of it. `mapping` is that of now.
     bool is_led() const { return follower_ != nullptr; }
-    // To a place in the scene; far beyond it there is none, and no hand.
-    void lead(const Vec3& place, const Workspace& mapping, std::uint32_t buttons);
+    // To a place in the scene, with the rotation there; far beyond it there is none, and no hand.
+    void lead(const Pose& place, const Workspace& mapping, std::uint32_t buttons);
     // Under a pointer, deeper by this much than it was.
     void point(const ScreenRay& ray, double deeper, const Workspace& mapping, std::uint32_t buttons);
     // Along a deflection in the scene's axes. `is_there`: what leads it is plugged in; else there is no hand.
@@ -92,9 +92,10 @@ private:
     std::shared_ptr<DriverDevice> driver_;
     void aim(const Vec3& place, std::uint32_t buttons, bool is_there = true);
 
-    Vec3 aimed_at_{0.0};    // in the device's own frame (unit: meters)
-    Vec3 pointed_at_{0.0};  // in the scene (unit: meters)
-    Vec3 steered_to_{0.0};  // in the device's own frame (unit: meters)
+    Vec3 aimed_at_{0.0};                  // in the device's own frame (unit: meters)
+    Quat turned_to_{1.0, 0.0, 0.0, 0.0};  // the rotation, in the same frame
+    Vec3 pointed_at_{0.0};                // in the scene (unit: meters)
+    Vec3 steered_to_{0.0};                // in the device's own frame (unit: meters)
 };
 
 // Of a hand's workspace in its own frame, as far as it is known before the device is there (unit: meters); 0:

@@ -8,6 +8,7 @@
 #include <random>
 #include <vector>
 
+#include "core/math/body_motion.hpp"
 #include "support/realtime_audit.hpp"
 
 namespace tactus::following_device_test {
@@ -49,6 +50,50 @@ TEST(UnderPointer, LeadsToNoPlaceWhereTheCameraSeesNone) {
     EXPECT_FALSE(under_pointer({Vec3(0.0), Vec3(none), Vec3(0, 0, -1)}, Vec3(0, 0, -1), 0.0));
     EXPECT_FALSE(under_pointer({Vec3(none), Vec3(0, 0, -1), Vec3(0, 0, -1)}, Vec3(0, 0, -1), 0.0));
     EXPECT_FALSE(under_pointer({Vec3(0, 0, 1e9), Vec3(0, 0, -1), Vec3(0, 0, -1)}, Vec3(0, 0, 1e9), 0.0));
+}
+
+TEST(TurnFollower, ComesToItsTargetByTheShortestWay) {
+    const Quat target = glm::angleAxis(2.0, glm::normalize(Vec3(1.0, 2.0, -1.0)));
+    TurnFollower turn;
+    double farther = angle_between(turn.rotation, target);
+    for (int i = 0; i < 200; ++i) {
+        turn = follow(turn, target, 80.0, 0.001);
+        const double now = angle_between(turn.rotation, target);
+        ASSERT_LE(now, farther) << "in step " << i;
+        ASSERT_NEAR(std::abs(glm::dot(Vec3(turn.rotation.x, turn.rotation.y, turn.rotation.z),
+                                      glm::normalize(Vec3(1.0, 2.0, -1.0)))),
+                    std::sqrt(1.0 - turn.rotation.w * turn.rotation.w), 1e-9)
+            << "about another axis";
+        farther = now;
+    }
+    EXPECT_LT(farther, 1e-5);
+    EXPECT_LT(glm::length(turn.velocity), 1e-3);
+}
+
+TEST(TurnFollower, ManySmallStepsAreOneLargeStep) {
+    const Quat target = glm::angleAxis(1.0, Vec3(0.0, 1.0, 0.0));
+    const TurnFollower start{Quat(1.0, 0.0, 0.0, 0.0), {0.0, 3.0, 0.0}};
+    TurnFollower small = start;
+    for (int i = 0; i < 100; ++i) {
+        small = follow(small, target, 80.0, 0.0003);
+    }
+    const TurnFollower large = follow(start, target, 80.0, 0.03);
+    EXPECT_LT(angle_between(small.rotation, large.rotation), 1e-9);
+    EXPECT_LT(glm::length(small.velocity - large.velocity), 1e-8);
+}
+
+TEST(FollowingDevice, TurnsWhereItsTargetsTurn) {
+    const Quat target = glm::angleAxis(0.7, Vec3(0.0, 0.0, 1.0));
+    for (const bool rotates : {false, true}) {
+        FollowingDevice hand({.rotates = rotates});
+        EXPECT_EQ(hand.capabilities().rotates, rotates);
+        hand.aim({Vec3(0.0), 0, true, target});
+        Quat last;
+        for (Nanoseconds t = 0; t < 500 * ms; t += ms) {
+            last = hand.read(t).rotation;
+        }
+        EXPECT_LT(angle_between(last, rotates ? target : Quat(1.0, 0.0, 0.0, 0.0)), 1e-6);
+    }
 }
 
 TEST(Follower, ManySmallStepsAreOneLargeStep) {

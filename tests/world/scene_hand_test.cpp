@@ -35,7 +35,7 @@ TEST(SceneHand, ThereIsNoneAtFirst) {
     SceneHand hand;
     EXPECT_EQ(hand.port(), nullptr);
     EXPECT_FALSE(hand.is_led());
-    hand.lead({1, 2, 3}, {}, 0);
+    hand.lead({{1, 2, 3}}, {}, 0);
     hand.steer({1, 0, 0}, {}, 0.1, {}, 0);
     hand.point({}, 0.0, {}, 0);
     hand.change(ArmSettings{});
@@ -79,10 +79,10 @@ TEST(SceneHand, BeginsAndIsLedInTheScene) {
     plan.start = {1, 0, 4};
     SceneHand hand(plan, shifted());
     expect_at(hand, {0, 0, 2});
-    hand.lead({3, 0, 0}, shifted(), 5);
+    hand.lead({{3, 0, 0}}, shifted(), 5);
     expect_at(hand, {1, 0, 0});
     EXPECT_EQ(hand.port()->read(2'000'000'000).buttons, 5u);
-    hand.lead({1e9, 0, 0}, shifted(), 0);
+    hand.lead({{1e9, 0, 0}}, shifted(), 0);
     expect_at(hand, {1, 0, 0});
 }
 
