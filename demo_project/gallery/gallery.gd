@@ -76,6 +76,11 @@ const SCENES := {
 	["The edge of a table", "Push the box over the edge: it grows lighter as it tips, and then it is gone."],
 	"pinch":
 	["Two fingers", "Close them on the box and lift it by nothing but friction: too lightly, and it slips."],
+	"vr":
+	[
+		"A room for a headset",
+		"Two controllers and a desktop device at one table: the firmer you press, the more they vibrate."
+	],
 	"peg_in_hole":
 	["A tool", "Lead the peg into its hole and feel it jam when it is tilted; then knock down the stack."],
 	"delay_lab":
