@@ -1,6 +1,7 @@
 #include "nodes/body_reading.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <godot_cpp/classes/character_body3d.hpp>
 #include <godot_cpp/classes/physics_body3d.hpp>
 #include <godot_cpp/classes/physics_server3d.hpp>
@@ -10,7 +11,6 @@
 #include "nodes/haptic_material.hpp"
 #include "nodes/haptic_mesh.hpp"
 #include "nodes/haptic_soft_body.hpp"
-#include "nodes/haptic_world.hpp"
 #include "nodes/passed_over.hpp"
 #include "nodes/scene_warnings.hpp"
 
@@ -52,6 +52,17 @@ void take_problem_of(const HapticMaterial* material, BodyForm& form) {
 
 }  // namespace
 
+double told(const RID& body, PhysicsServer3D::BodyParameter what) {
+    return static_cast<double>(PhysicsServer3D::get_singleton()->body_get_param(body, what));
+}
+
+// PhysicsMaterial tells rough and absorbent by the sign.
+SurfaceMaterial told_surface(const RID& body) {
+    const double friction = told(body, PhysicsServer3D::BODY_PARAM_FRICTION);
+    const double bounce = told(body, PhysicsServer3D::BODY_PARAM_BOUNCE);
+    return {std::abs(friction), std::clamp(std::abs(bounce), 0.0, 1.0), friction < 0.0, bounce < 0.0};
+}
+
 Ref<PhysicsMaterial> material_of(const CollisionObject3D& body) {
     if (const auto* rigid = Object::cast_to<RigidBody3D>(&body)) {
         return rigid->get_physics_material_override();
@@ -76,8 +87,8 @@ void hold_still(const RigidBody3D& body, bool held) {
     }
 }
 
-BodyForm read_form(CollisionObject3D& body) {
-    return read_form(body, scaling_of(frame_of(body.get_global_transform())));
+BodyForm read_form(CollisionObject3D& body, bool engine_moves) {
+    return read_form(body, scaling_of(frame_of(body.get_global_transform())), engine_moves);
 }
 
 bool is_disabled(const Node& node) {
@@ -93,7 +104,7 @@ bool is_out(const CollisionObject3D& body) {
            is_disabled(body);
 }
 
-BodyForm read_form(CollisionObject3D& body, const Mat3& body_scale) {
+BodyForm read_form(CollisionObject3D& body, const Mat3& body_scale, bool engine_moves) {
     BodyForm form;
     if (is_out(body)) {
         return form;
@@ -102,7 +113,7 @@ BodyForm read_form(CollisionObject3D& body, const Mat3& body_scale) {
         form.problems.push_back(std::move(problem));
         return form;
     }
-    form.problems = passed_over(body);
+    form.problems = passed_over(body, engine_moves);
     const SceneFrame scaling{body_scale};
     const auto* material = Object::cast_to<HapticMaterial>(material_of(body).ptr());
     take_problem_of(material, form);
@@ -126,14 +137,6 @@ BodyForm read_form(CollisionObject3D& body, const Mat3& body_scale) {
         } else {
             form.problems.push_back("'" + from_godot(String(soft->get_name())) + "': " + from_godot(problem));
         }
-    }
-    const HapticWorld* const world = HapticWorld::above(&body);
-    const bool world_moves = world == nullptr || !world->leaves_bodies_to_godot();
-    if (world_moves && Object::cast_to<RigidBody3D>(&body) != nullptr &&
-        body.has_method("_integrate_forces")) {
-        form.problems.push_back(
-            "its script has _integrate_forces(), which is not called while a HapticWorld moves the body: use "
-            "_process() and HapticWorld.apply_force()");
     }
     form.touchable =
         !form.shapes.empty() || !form.meshes.empty() || !form.touched.empty() || form.soft != nullptr;

@@ -3,6 +3,7 @@
 
 #include <godot_cpp/classes/collision_object3d.hpp>
 #include <godot_cpp/classes/physics_material.hpp>
+#include <godot_cpp/classes/physics_server3d.hpp>
 #include <godot_cpp/classes/rigid_body3d.hpp>
 
 #include "nodes/conversions.hpp"
@@ -18,6 +19,10 @@ bool is_solid_body(const godot::Object* object);
 // own, and what is outside the world still finds the body where it is. Or as it would have it by itself.
 void hold_still(const godot::RigidBody3D& body, bool held);
 
+// As Godot's own physics has it, told by RigidBody3D or by a script past it.
+double told(const godot::RID& body, godot::PhysicsServer3D::BodyParameter what);
+SurfaceMaterial told_surface(const godot::RID& body);
+
 // Of any of the bodies that can have one.
 godot::Ref<godot::PhysicsMaterial> material_of(const godot::CollisionObject3D& body);
 
@@ -26,10 +31,11 @@ godot::Ref<godot::PhysicsMaterial> material_of(const godot::CollisionObject3D& b
 bool is_disabled(const godot::Node& node);
 // By that, it is not in the physics for now.
 bool is_out(const godot::CollisionObject3D& body);
-// The triangles of meshes are taken as they are; problems_of() looks at them, too.
-BodyForm read_form(godot::CollisionObject3D& body);
+// The triangles of meshes are taken as they are; problems_of() looks at them, too. `engine_moves`: see
+// passed_over().
+BodyForm read_form(godot::CollisionObject3D& body, bool engine_moves);
 // `body_scale`: what the body's own frame scales, as it counts (scaling_of()).
-BodyForm read_form(godot::CollisionObject3D& body, const Mat3& body_scale);
+BodyForm read_form(godot::CollisionObject3D& body, const Mat3& body_scale, bool engine_moves);
 
 // Calls use(shape, its place in the body, Godot's owner of it) for each shape that takes part.
 void for_each_shape(godot::CollisionObject3D& body, auto&& use) {

@@ -30,6 +30,12 @@ void BodyWatch::take_out() {
     queue_free();
 }
 
+void BodyWatch::tell_of_moves(bool tell) {
+    set_notify_transform(false);
+    set_as_top_level(!tell);
+    set_notify_transform(tell);
+}
+
 void BodyWatch::listen_to(std::vector<Ref<Resource>> resources) {
     if (resources_ == resources) {
         return;

@@ -32,6 +32,10 @@ public:
     static BodyWatch* put_into(godot::Node& body, Listener& listener);
     void take_out();
 
+    // Whether has_moved() is called. Where it is not, Godot takes the watch along with its body no more,
+    // which would cost as much for each body that moves.
+    void tell_of_moves(bool tell);
+
     // These are what the body is made of now.
     void listen_to(std::vector<godot::Ref<godot::Resource>> resources);
 

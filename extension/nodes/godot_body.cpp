@@ -46,18 +46,6 @@ void read_surfaces(const HapticMesh& mesh, BodyValues& values) {
     }
 }
 
-// As Godot's own physics has it, told by RigidBody3D or by a script past it.
-double told(const RID& body, PhysicsServer3D::BodyParameter what) {
-    return static_cast<double>(PhysicsServer3D::get_singleton()->body_get_param(body, what));
-}
-
-// PhysicsMaterial tells rough and absorbent by the sign.
-SurfaceMaterial told_surface(const RID& body) {
-    const double friction = told(body, PhysicsServer3D::BODY_PARAM_FRICTION);
-    const double bounce = told(body, PhysicsServer3D::BODY_PARAM_BOUNCE);
-    return {std::abs(friction), std::clamp(std::abs(bounce), 0.0, 1.0), friction < 0.0, bounce < 0.0};
-}
-
 double damping_of(RigidBody3D::DampMode mode, double own, double project) {
     return std::max(0.0, mode == RigidBody3D::DAMP_MODE_REPLACE ? own : own + project);
 }
@@ -229,6 +217,9 @@ BodyMotion GodotBody::true_motion() const {
 
 void GodotBody::push(const Vec3& impulse, const Vec3& turn) {
     PhysicsServer3D* const server = PhysicsServer3D::get_singleton();
+    if (!server->body_get_space(node_.get_rid()).is_valid()) {  // it is switched off at the moment
+        return;
+    }
     server->body_apply_central_impulse(node_.get_rid(), to_godot(impulse));
     server->body_apply_torque_impulse(node_.get_rid(), to_godot(turn));
 }
@@ -258,7 +249,7 @@ void GodotBody::listen() {
 
 void GodotBody::tell_of_moves(bool tell) {
     if (watch_ != nullptr) {
-        watch_->set_notify_transform(tell);
+        watch_->tell_of_moves(tell);
     }
 }
 
@@ -268,7 +259,11 @@ void GodotBody::let_go() {
     }
     if (rigid_ != nullptr && is_there()) {
         tactus::hold_still(*rigid_, false);
-        rigid_->set_sleeping(false);  // Godot has put it to sleep while it was held
+        if (!scene_.engine_moves) {  // Godot has put it to sleep and forgotten its speed while it was held
+            rigid_->set_linear_velocity(rigid_->get_linear_velocity());
+            rigid_->set_angular_velocity(rigid_->get_angular_velocity());
+            rigid_->set_sleeping(false);
+        }
     }
 }
 

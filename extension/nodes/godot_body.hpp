@@ -38,7 +38,9 @@ public:
     SceneSpeed speed() const override;
     BodyMakings makings(const Mat3& scaling) const override;
     ShapeKey shape_key() const override;
-    BodyForm form(const Mat3& scaling) const override { return read_form(node_, scaling); }
+    BodyForm form(const Mat3& scaling) const override {
+        return read_form(node_, scaling, scene_.engine_moves);
+    }
     BodyValues values(const BodyDefaults& defaults) override;
 
     BodyMotion true_motion() const override;

@@ -1,5 +1,6 @@
 #include "nodes/haptic_world.hpp"
 
+#include <algorithm>
 #include <godot_cpp/classes/project_settings.hpp>
 #include <godot_cpp/classes/scene_tree.hpp>
 #include <godot_cpp/core/error_macros.hpp>
@@ -66,18 +67,28 @@ Dictionary distribution(const DurationHistogram& periods) {
     return result;
 }
 
+// Of the first node below that asks for Godot's own physics; empty: none does.
+std::string need_below(const Node& world) {
+    std::string need;
+    find_below(world, [&need](const Node& node) {
+        need = need_of_godot(node);
+        return !need.empty();
+    });
+    return need;
+}
+
 // What the editor already knows to be wrong with a node of a world.
-void warn_of(Node& node, PackedStringArray& warnings) {
+void warn_of(Node& node, bool engine_moves, PackedStringArray& warnings) {
     const String name = "'" + String(node.get_name()) + "'";
     if (is_solid_body(&node)) {
         for (const std::string& problem :
-             problems_of(read_form(*Object::cast_to<CollisionObject3D>(&node)))) {
+             problems_of(read_form(*Object::cast_to<CollisionObject3D>(&node), engine_moves))) {
             warn(warnings, name + String(" cannot be touched as it should be"), to_godot(problem));
         }
     } else if (const auto* joint = Object::cast_to<Joint3D>(&node)) {
         warn(warnings, name + String(" does not join as it should"), to_godot(problem_of_joint(*joint)));
     } else {
-        for (const std::string& problem : passed_over(node)) {
+        for (const std::string& problem : passed_over(node, engine_moves)) {
             warn(warnings, name + String(" is not carried out as Godot has it"), to_godot(problem));
         }
     }
@@ -103,8 +114,46 @@ void HapticWorld::gravity_changed() {
     }
 }
 
-bool HapticWorld::leaves_bodies_to_godot() const {
-    return authority_ == AUTHORITY_GODOT && MMTLink::of(*this).empty();
+// Both sides of a teleoperation have to come to the same result.
+bool HapticWorld::may_choose_godot() const {
+    return authority_ != AUTHORITY_HAPTIC && MMTLink::of(*this).empty();
+}
+
+bool HapticWorld::chooses_godot() {
+    if (!may_choose_godot() || authority_ == AUTHORITY_GODOT) {
+        return may_choose_godot();
+    }
+    const std::string need = need_below(*this);
+    if (!need.empty()) {
+        UtilityFunctions::print(name_of(*this), ": Godot's own physics moves its bodies, because ",
+                                to_godot(need), ". Set 'authority' to Godot or Haptic to choose yourself.");
+    }
+    return !need.empty();
+}
+
+// Scripts add nodes and connect signals after the world has started.
+void HapticWorld::look_at_arrivals() {
+    const std::vector<std::uint64_t> arrivals = std::exchange(arrivals_, {});
+    if (run_ == nullptr || run_->engine_moves() || authority_ != AUTHORITY_AUTOMATIC || !may_choose_godot()) {
+        return;
+    }
+    const auto asks_for_godot = [this](std::uint64_t id) {
+        Node* const node = node_of_id<Node>(id);
+        if (node == this) {
+            return !need_below(*this).empty();
+        }
+        return node != nullptr && is_ancestor_of(node) && !need_of_godot(*node).empty();
+    };
+    if (std::ranges::any_of(arrivals, asks_for_godot)) {
+        world_changed();
+    }
+}
+
+HapticWorld::Authority HapticWorld::get_authority_in_use() const {
+    const bool is_godots =
+        run_ != nullptr ? run_->engine_moves()
+                        : may_choose_godot() && (authority_ == AUTHORITY_GODOT || !need_below(*this).empty());
+    return is_godots ? AUTHORITY_GODOT : AUTHORITY_HAPTIC;
 }
 
 BodyDefaults HapticWorld::body_defaults() const {
@@ -157,7 +206,7 @@ void HapticWorld::start() {
     settings.session.max_parts = 4 * settings.session.max_bodies;
     settings.session.physics.gravity = from_godot(gravity_);
     settings.links = MMTLink::of(*this);
-    settings.engine_moves = leaves_bodies_to_godot();
+    settings.engine_moves = chooses_godot();
     if (settings.engine_moves) {
         settings.session.physics.penetration_slop = engine_slop;
     }
@@ -171,7 +220,8 @@ void HapticWorld::start() {
     run_->synchronise(shortest_way);
     start_loop();
     set_process_internal(true);
-    set_physics_process_internal(run_->engine_moves());
+    set_physics_process_internal(run_->engine_moves() || authority_ == AUTHORITY_AUTOMATIC);
+    arrivals_ = {get_instance_id()};
     post_signal(*this, "started");
 }
 
@@ -260,6 +310,7 @@ void HapticWorld::look_at_place() {
 // The old run goes when the new one has built what it needs: trees and meshes of both are built once.
 void HapticWorld::catch_up() {
     look_at_place();
+    look_at_arrivals();
     const Change what = std::exchange(change_, Change::none);
     if (run_ == nullptr || what == Change::none) {
         return;
@@ -321,6 +372,9 @@ void HapticWorld::node_added(const Variant& added) {
     auto* const node = object_in<Node>(added);
     if (node != nullptr && run_ != nullptr) {
         run_->node_added(*node);
+        if (authority_ == AUTHORITY_AUTOMATIC && !run_->engine_moves()) {
+            arrivals_.push_back(node->get_instance_id());
+        }
     }
 }
 
@@ -368,7 +422,11 @@ void HapticWorld::process(double seconds) {
     run->ask_effects();
 }
 
+// Before Godot's first step: it would find bodies that the world holds and then leaves to it.
 void HapticWorld::physics_process(double seconds) {
+    if (run_ != nullptr && !run_->engine_moves() && !run_->is_busy()) {
+        catch_up();
+    }
     if (run_ != nullptr && run_->engine_moves() && !run_->is_over() && seconds > 0.0) {
         run_->exchange(seconds);
     }
@@ -480,14 +538,18 @@ PackedStringArray HapticWorld::_get_configuration_warnings() const {
                            "', and stays inactive: remove one of the two, or put them side by side.");
         return warnings;
     }
-    for_each_below(*this, [&warnings](Node& node) { warn_of(node, warnings); });
+    const bool engine_moves = get_authority_in_use() == AUTHORITY_GODOT;
+    for_each_below(*this, [&](Node& node) { warn_of(node, engine_moves, warnings); });
     if (is_inside_tree()) {
         warn(warnings, "This HapticWorld leaves something out", problem_of_outside(*this));
-        for (const std::string& problem : problems_across(*this)) {
+        for (const std::string& problem :
+             engine_moves ? std::vector<std::string>() : problems_across(*this)) {
             warn(warnings, "This HapticWorld leaves something out", to_godot(problem));
         }
     }
-    if (find_below(*this, [](const Node& node) { return is_solid_body(&node); }) == nullptr) {
+    // Where Godot's own physics moves the bodies, those of no node are felt as well.
+    const auto is_solid = [](const Node& node) { return is_solid_body(&node); };
+    if (!engine_moves && find_below(*this, is_solid) == nullptr) {
         warn(warnings, "This HapticWorld is empty", problem_of_emptiness(*this));
     }
     return warnings;

@@ -51,7 +51,7 @@ class HapticWorld : public godot::Node3D {
 
 public:
     enum Clock : int64_t { CLOCK_REAL_TIME, CLOCK_STEPPED };
-    enum Authority : int64_t { AUTHORITY_HAPTIC, AUTHORITY_GODOT };
+    enum Authority : int64_t { AUTHORITY_HAPTIC, AUTHORITY_GODOT, AUTHORITY_AUTOMATIC };
     enum State { STATE_OFF, STATE_FAILED, STATE_WAITING, STATE_WORKING };
 
     HapticWorld();
@@ -61,6 +61,7 @@ public:
 
     int64_t advance(double seconds);
     bool is_running() const { return run_ != nullptr; }
+    Authority get_authority_in_use() const;
     int64_t get_ticks() const;
     double get_time() const;
     State get_state() const;
@@ -110,9 +111,6 @@ public:
     // The last rows are written before the recorder closes its files.
     static void finish_recording(HapticRecorder& recorder);
     BodyDefaults body_defaults() const;
-    // Godot's own physics moves its bodies. Not the sides of a teleoperation, which have to come to the same
-    // result.
-    bool leaves_bodies_to_godot() const;
 
 protected:
     static void _bind_methods();
@@ -134,6 +132,9 @@ private:
     void loop_changed() { change_ = std::max(change_, Change::loop); }
     void gravity_changed();
     void look_at_place();
+    bool may_choose_godot() const;
+    bool chooses_godot();
+    void look_at_arrivals();
     void catch_up();
     void let_go_of_former();
     std::unique_ptr<InputRecording> record_inputs(const SessionSettings& settings);
@@ -151,7 +152,7 @@ private:
 
     int tick_rate_ = 1000;
     Clock clock_ = CLOCK_REAL_TIME;
-    Authority authority_ = AUTHORITY_HAPTIC;
+    Authority authority_ = AUTHORITY_AUTOMATIC;
     godot::Vector3 gravity_;
     godot::Ref<HapticMaterial> default_material_;
     int max_bodies_ = 1024;
@@ -166,11 +167,13 @@ private:
     std::shared_ptr<WorldRun> former_;  // before it started anew, until its trees are in the new one
     Change change_ = Change::none;
     PlaceWatch place_;
-    double since_report_ = 0.0;  // (unit: seconds)
-    godot::String loop_error_;   // why the haptic thread could not start
+    std::vector<std::uint64_t> arrivals_;  // ids of nodes that may ask for Godot's own physics
+    double since_report_ = 0.0;            // (unit: seconds)
+    godot::String loop_error_;             // why the haptic thread could not start
     ToldState<State> told_;
 };
 
 }  // namespace tactus
 
+VARIANT_ENUM_CAST(tactus::HapticWorld::Authority);
 VARIANT_ENUM_CAST(tactus::HapticWorld::State);

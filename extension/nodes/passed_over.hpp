@@ -9,7 +9,10 @@
 namespace tactus {
 
 // Of one node of a world: what of it is used and not carried out, and what to do instead; empty where all of
-// it is.
-std::vector<std::string> passed_over(const godot::Node& node);
+// it is. `engine_moves`: Godot's own physics moves the bodies of that world.
+std::vector<std::string> passed_over(const godot::Node& node, bool engine_moves);
+
+// Why the node's scene expects Godot's own physics to move its bodies; empty where it does not.
+std::string need_of_godot(const godot::Node& node);
 
 }  // namespace tactus

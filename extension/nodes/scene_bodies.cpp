@@ -1,5 +1,6 @@
 #include "nodes/scene_bodies.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "nodes/body_parts.hpp"
@@ -22,7 +23,7 @@ void SceneBodies::scene_changed(Node& node, bool comes) {
     if (const Node* parent = node.get_parent(); parent != nullptr && is_solid_body(parent)) {
         mirrors_.news()->changed.push_back(parent->get_instance_id());
     }
-    if (auto* rigid = Object::cast_to<RigidBody3D>(&node); rigid != nullptr && !engine_moves_) {
+    if (auto* rigid = Object::cast_to<RigidBody3D>(&node); rigid != nullptr && !scene_.engine_moves) {
         hold_until_found(*rigid, comes);
     }
 }
@@ -40,16 +41,17 @@ void SceneBodies::hold_until_found(RigidBody3D& body, bool comes) {
 }
 
 void SceneBodies::say_passed_over(const Node& node) {
-    for (const std::string& problem : passed_over(node)) {
+    for (const std::string& problem : passed_over(node, scene_.engine_moves)) {
         scene_.complaints.say(node, problem);
     }
 }
 
 std::vector<std::string> SceneBodies::problems() const {
     std::vector<std::string> all = mirrors_.problems();
-    for_each_below(scene_.world, [&all](const Node& node) {
+    std::ranges::move(server_bodies_.mirrors().problems(), std::back_inserter(all));
+    for_each_below(scene_.world, [&](const Node& node) {
         if (!is_solid_body(&node)) {
-            for (const std::string& problem : passed_over(node)) {
+            for (const std::string& problem : passed_over(node, scene_.engine_moves)) {
                 all.push_back(from_godot(name_of(node)) + ": " + problem);
             }
         }
@@ -80,7 +82,6 @@ void SceneBodies::find(Session& session) {
 }
 
 void SceneBodies::synchronise(MirrorContext context) {
-    scene_.engine_moves = context.engine_moves;
     for (const std::uint64_t id : std::exchange(others_, {})) {
         auto* other = node_of_id<Node>(id);
         if (other != nullptr && scene_.world.is_ancestor_of(other)) {
@@ -92,6 +93,35 @@ void SceneBodies::synchronise(MirrorContext context) {
     }
     context.mesh_changes = part_changes();
     mirrors_.synchronise(context);
+    server_bodies_.synchronise(context);
+}
+
+// A body counts that is within arm's length of a hand, or next to a local model, which may lie on it.
+void SceneBodies::exchange(Session& session, std::span<const Vec3> hands, double seconds, double tick) {
+    constexpr double close = 0.5, farthest = 5.0;  // (unit: meters)
+    const std::span<const CloseShape> shapes =
+        close_.around(scene_.world, hands, std::min(farthest, close + 2.0 * mirrors_.widest_led()));
+    if (close_.is_full()) {
+        scene_.complaints.say(scene_.world,
+                              "there are so many shapes about a hand that those farther from it are left "
+                              "out: join small shapes to fewer ones");
+    }
+    std::vector<std::uint64_t> bodies;
+    std::vector<CloseShape> others;
+    for (const CloseShape& shape : shapes) {
+        if (mirrors_.of(shape.owner) != nullptr) {
+            bodies.push_back(shape.owner);
+        } else {
+            others.push_back(shape);
+        }
+    }
+    mirrors_.exchange({session, hands, bodies, seconds, tick});
+    server_bodies_.exchange(others, {session, hands, {}, seconds, tick});
+}
+
+std::uint64_t SceneBodies::node_of(SessionHandle body) const {
+    const std::uint64_t node = mirrors_.node_of(body);
+    return node != 0 ? node : server_bodies_.owner_of(body);
 }
 
 void SceneBodies::release(Session& session) {
@@ -101,6 +131,7 @@ void SceneBodies::release(Session& session) {
         }
     }
     mirrors_.release(session);
+    server_bodies_.release(session);
 }
 
 void SceneBodies::begin_to_show() {

@@ -6,8 +6,10 @@
 
 #include <unordered_set>
 
+#include "nodes/close_shapes.hpp"
 #include "nodes/godot_body.hpp"
 #include "nodes/scene_view.hpp"
+#include "nodes/server_bodies.hpp"
 
 namespace tactus {
 
@@ -16,11 +18,13 @@ public:
     // `in_turn`: see BodyMirrors; `engine_moves`: see MirrorContext.
     SceneBodies(const godot::Node3D& world, std::size_t max_bodies, bool in_turn, bool engine_moves,
                 Complaints& complaints)
-        : scene_{world, complaints}, mirrors_(max_bodies, in_turn), engine_moves_(engine_moves) {}
+        : scene_{world, complaints, false, engine_moves},
+          mirrors_(max_bodies, in_turn),
+          server_bodies_(scene_, max_bodies, in_turn) {}
 
     void scene_changed(godot::Node& node, bool comes) override;
     SessionHandle body_of(std::uint64_t node) const override { return mirrors_.body_of(node); }
-    std::uint64_t node_of(SessionHandle body) const override { return mirrors_.node_of(body); }
+    std::uint64_t node_of(SessionHandle body) const override;
     std::size_t body_count() const override { return mirrors_.in_session(); }
     void begin_to_show() override;
     void show(const BodyState& state, std::uint64_t tick, Session& session) override {
@@ -30,6 +34,9 @@ public:
 
     // Brings the session up to date with all that stands below the world.
     void synchronise(MirrorContext context);
+    // Godot's own physics moves the bodies and is about to step; `hands`, `seconds`, `tick`: see
+    // PhysicsFrame.
+    void exchange(Session& session, std::span<const Vec3> hands, double seconds, double tick);
 
     BodyMirrors& mirrors() { return mirrors_; }
     const BodyMirrors& mirrors() const { return mirrors_; }
@@ -44,7 +51,8 @@ private:
 
     GodotScene scene_;
     BodyMirrors mirrors_;
-    bool engine_moves_;
+    CloseShapes close_;
+    ServerBodies server_bodies_;
     std::unordered_set<std::uint64_t> arriving_;  // rigid bodies that no mirror has yet, held still
     std::vector<std::uint64_t> others_;           // nodes that have come and are none of ours
     bool is_first_look_ = true;

@@ -236,7 +236,7 @@ SceneReading read_scene(const HapticWorld& world, const Vec3& hand, double radiu
             return;
         }
         auto& body = *Object::cast_to<CollisionObject3D>(&node);
-        const BodyForm form = read_form(body);
+        const BodyForm form = read_form(body, false);
         if (!form.touchable) {
             return;
         }

@@ -137,7 +137,7 @@ void WorldRun::look_at_scene() {
     }
     const SceneFacts facts = mirrors.facts();
     hands_->look_at_scene(facts, complaints_);
-    if (mirrors.bodies().empty()) {
+    if (mirrors.bodies().empty() && !engine_moves_) {
         complaints_.say(world_, problem_of_emptiness(world_));
     } else if (looks_ == first) {
         complaints_.say(world_, problem_of_outside(world_));
@@ -314,7 +314,7 @@ void WorldRun::exchange(double seconds) {
     for (const ToolState& tool : std::span(snapshot.tools).first(snapshot.tool_count)) {
         hand_places_.push_back(tool.pose.position);
     }
-    bodies_.mirrors().exchange({session(), hand_places_, seconds, world_.tick_seconds()});
+    bodies_.exchange(session(), hand_places_, seconds, world_.tick_seconds());
 }
 
 // A script that is called as a body moves may end all this.

@@ -55,6 +55,8 @@ void BodyMirror::plan(const MirrorContext& context) {
     seen_ = key_.scaling;
     mesh_changes_ = context.mesh_changes;
     body_->listen();
+    const BodyValues now = values(context);
+    body_->tell_of_moves(!is_far() && !moves_);
     if (handle() == no_handle) {
         remember();
     }
@@ -62,8 +64,7 @@ void BodyMirror::plan(const MirrorContext& context) {
     if ((form.touchable || is_first) && !context.engine_moves) {
         body_->hold_still(form.touchable);
     }
-    BodyPlan plan{std::move(form), values(context), body_->makings(key_.scaling), remembered(),
-                  body_->can_be_thrown()};
+    BodyPlan plan{std::move(form), now, body_->makings(key_.scaling), remembered(), body_->can_be_thrown()};
     const bool is_new = handle() == no_handle;
     if (twin_.plan(std::move(plan), context.workers) && !(is_new && context.together)) {
         hand_over(context);
@@ -255,9 +256,14 @@ bool BodyMirror::come_to_rest() {
 
 // --- where the engine's own physics moves it
 
-// Away from hands it is kinematic: it goes exactly where the engine has it.
+// Close to a hand it is kinematic, and goes exactly where the engine has it; far from all it is not there.
 BodyValues BodyMirror::values(const MirrorContext& context) {
     BodyValues values = body_->values(context.defaults);
+    layers_ = values.layers;
+    may_be_far_ = context.engine_moves && values.motion != Motion::Static;
+    if (is_far()) {
+        values.layers = {0, 0};
+    }
     is_moved_by_engine_ = context.engine_moves && values.motion == Motion::Dynamic;
     if (is_moved_by_engine_ && !is_near_) {
         values.motion = Motion::Kinematic;
@@ -277,6 +283,39 @@ void BodyMirror::go_along(const SceneFrame& frame, const MirrorContext& context)
     }
 }
 
+// It is put there: how it came there is nothing that a hand could have felt. What else there is of it is read
+// when it is synchronised next.
+void BodyMirror::come_close(Session& session) {
+    constexpr int frames_close = 30;
+    const bool was_far = is_far();
+    frames_close_ = frames_close;
+    if (was_far && body_->is_in_scene()) {
+        body_->tell_of_moves(true);
+        if (handle() != no_handle) {
+            send_place(body_->frame(), session, 0.0, false);
+        }
+    }
+}
+
+bool BodyMirror::stays_close(const PhysicsFrame& frame) {
+    frames_close_ = std::max(0, frames_close_ - 1);
+    if (!is_far()) {
+        return frames_close_ > 0;
+    }
+    exchange(frame, false);
+    if (body_->is_there()) {
+        body_->tell_of_moves(false);
+        BodyValues values = twin_.values();
+        values.layers = {0, 0};
+        twin_.set_values(frame.session, values);
+    }
+    return false;
+}
+
+Pose BodyMirror::pose() const {
+    return is_far() && body_->is_there() ? pose_of(body_->frame()) : twin_.pose();
+}
+
 bool BodyMirror::exchange(const PhysicsFrame& frame, bool may_be_led) {
     if (handle() == no_handle || !body_->is_in_scene()) {
         return false;
@@ -287,7 +326,10 @@ bool BodyMirror::exchange(const PhysicsFrame& frame, bool may_be_led) {
     // Far enough that a hand of 5 m/s does not arrive within a frame; what leaves does not come and go.
     constexpr double near = 0.2, far = 0.4;  // of its surface (unit: meters)
     const double within = twin_.reach() + (is_near_ ? far : near);
-    const bool is_near = may_be_led && is_moved_by_engine_ && place_problem_.empty() &&
+    const CollisionLayers& in_session = twin_.values().layers;
+    const bool is_looked_at =  // since it came close
+        in_session.layer == layers_.layer && in_session.mask == layers_.mask;
+    const bool is_near = may_be_led && is_looked_at && is_moved_by_engine_ && place_problem_.empty() &&
                          std::ranges::any_of(frame.hands, [&](const Vec3& hand) {
                              return glm::distance(hand, twin_.pose().position) < within;
                          });

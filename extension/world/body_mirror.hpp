@@ -30,9 +30,10 @@ struct MirrorContext {
 // One frame of the engine's own physics, which is about to step.
 struct PhysicsFrame {
     Session& session;
-    std::span<const Vec3> hands;  // where they are (unit: meters)
-    double seconds = 0.0;         // of a frame, > 0
-    double tick = 0.0;            // seconds of one of the session's ticks, > 0
+    std::span<const Vec3> hands;           // where they are (unit: meters)
+    std::span<const std::uint64_t> close;  // ids of the bodies that are close to one of them
+    double seconds = 0.0;                  // of a frame, > 0
+    double tick = 0.0;                     // seconds of one of the session's ticks, > 0
 };
 
 class BodyMirror {
@@ -76,10 +77,25 @@ public:
     // It is shown as it is for another frame. Whether a script has given it a place or speed meanwhile.
     bool come_to_rest();
 
-    // Where the engine's own physics moves it: near a hand, it is felt as a local model that is put right by
-    // each frame, and what hands give that goes to the engine's body. Elsewhere it goes where the engine has
-    // it, and where `may_be_led` is false. Whether it has a local model from now on.
+    // Where the engine's own physics moves it. Far from every hand it is on no layer, and is not read at all:
+    // it may be anywhere by now.
+    bool is_far() const { return may_be_far_ && !is_close(); }
+    bool may_be_far() const { return may_be_far_; }
+    bool is_close() const { return frames_close_ > 0; }
+    bool is_led() const { return is_near_; }
+    // It is close to a hand in this frame, and counts as close for some more.
+    void come_close(Session& session);
+    // Another frame. False: it is far by now.
+    bool stays_close(const PhysicsFrame& frame);
+    // Close to a hand it goes where the engine has it. Near one, it is felt as a local model that is put
+    // right by each frame, and what hands give that goes to the engine's body; not where `may_be_led` is
+    // false. Whether it has a local model from now on.
     bool exchange(const PhysicsFrame& frame, bool may_be_led);
+
+    // As the scene has it now, where it is far; else as it was seen last.
+    Pose pose() const;
+    // Of the scene's body, as it was seen last.
+    const CollisionLayers& layers() const { return layers_; }
 
     // The id of the nearest body above it that can be thrown; 0: none.
     std::uint64_t carrier() const { return body_->is_there() ? body_->carrier() : 0; }
@@ -128,10 +144,13 @@ private:
     BodyTwin twin_;
     std::uint64_t mesh_changes_ = 0;
     bool tried_ = false;
-    bool is_moved_by_engine_ = false;  // it is not still, and the engine's own physics moves it
-    bool is_near_ = false;             // a hand, in the last frame
-    LedMotion led_;                    // while it is
-    bool was_nowhere_ = false;         // when the newest twin was planned: there could be none
+    bool is_moved_by_engine_ = false;  // it is dynamic, and the engine's own physics moves it
+    bool may_be_far_ = false;          // it is not still, and the engine's own physics moves the bodies
+    int frames_close_ = 0;             // so many more it counts as close to a hand
+    CollisionLayers layers_;
+    bool is_near_ = false;      // a hand, in the last frame
+    LedMotion led_;             // while it is
+    bool was_nowhere_ = false;  // when the newest twin was planned: there could be none
 };
 
 }  // namespace tactus

@@ -68,6 +68,8 @@ void BodyMirrors::match(const std::vector<std::uint64_t>& bodies, const MakeBody
     building_.clear();
     narrowing_.clear();
     thrown_.clear();
+    close_.clear();
+    arrived_.clear();
     std::ranges::fill(by_handle_, Shown{});
     for (const auto& mirror : bodies_) {
         by_body_[mirror->id()] = mirror.get();
@@ -77,7 +79,12 @@ void BodyMirrors::match(const std::vector<std::uint64_t>& bodies, const MakeBody
         if (mirror->twin().is_narrowing()) {
             narrowing_.push_back(mirror.get());
         }
+        if (mirror->is_close()) {
+            close_.push_back(mirror.get());
+            arrived_.push_back(mirror.get());
+        }
     }
+    std::ranges::sort(close_, {}, &BodyMirror::id);
     find_carried(bodies);
     for (const auto& mirror : bodies_) {
         take_handle(*mirror, no_handle);
@@ -156,12 +163,16 @@ void BodyMirrors::look_at_bodies(const MirrorContext& context) {
             }
         }
     };
+    const std::vector<BodyMirror*> arrived = std::exchange(arrived_, {});
     if (!in_turn_ || std::exchange(all_changed_, false)) {
         for (const auto& mirror : bodies_) {
-            look_at(*mirror, !changed_.empty());
+            if (!mirror->is_far() || !changed_.empty()) {
+                look_at(*mirror, !changed_.empty());
+            }
         }
         return;
     }
+    std::ranges::for_each(arrived, [&](BodyMirror* mirror) { look_at(*mirror); });
     each(changed_, [&](BodyMirror& mirror) { look_at(mirror, true); });
     each(moved_, [&](BodyMirror& mirror) { mirror.follow(context); });
     for (const auto& mirror : bodies_) {
@@ -170,7 +181,11 @@ void BodyMirrors::look_at_bodies(const MirrorContext& context) {
         }
     }
     each(touched_, look_at);
-    body_turns_.take(looks, bodies_, [&](const auto& mirror) { look_at(*mirror); });
+    body_turns_.take(looks, bodies_, [&](const auto& mirror) {
+        if (!mirror->is_far()) {
+            look_at(*mirror);
+        }
+    });
     speed_turns_.take(looks_at_speeds, thrown_, [&](BodyMirror* mirror) { mirror->follow_speed(context); });
 }
 
@@ -258,11 +273,36 @@ void BodyMirrors::show(const BodyState& state, std::uint64_t tick, Session& sess
     }
 }
 
-void BodyMirrors::exchange(const PhysicsFrame& frame) {
-    std::size_t led = 0;
-    for (BodyMirror* const mirror : thrown_) {
-        led += mirror->exchange(frame, led < max_led) ? 1 : 0;
+void BodyMirrors::find_close(const PhysicsFrame& frame) {
+    for (const std::uint64_t id : frame.close) {
+        const auto found = by_body_.find(id);
+        if (found == by_body_.end() || !found->second->may_be_far()) {
+            continue;
+        }
+        if (!found->second->is_close()) {
+            close_.push_back(found->second);
+            arrived_.push_back(found->second);
+        }
+        found->second->come_close(frame.session);
     }
+    std::erase_if(close_, [&frame](BodyMirror* mirror) { return !mirror->stays_close(frame); });
+    std::ranges::sort(close_, {}, &BodyMirror::id);
+}
+
+void BodyMirrors::exchange(const PhysicsFrame& frame) {
+    find_close(frame);
+    std::size_t led = 0;
+    for (BodyMirror* const mirror : close_) {
+        led += mirror->can_be_thrown() && mirror->exchange(frame, led < max_led) ? 1 : 0;
+    }
+}
+
+double BodyMirrors::widest_led() const {
+    double widest = 0.0;
+    for (const BodyMirror* const mirror : close_) {
+        widest = mirror->is_led() ? std::max(widest, mirror->twin().reach()) : widest;
+    }
+    return widest;
 }
 
 std::vector<std::pair<SceneBody*, std::string>> BodyMirrors::fallen_through() const {
@@ -305,7 +345,7 @@ SceneFacts BodyMirrors::facts() const {
     SceneFacts facts;
     for (const auto& mirror : bodies_) {
         if (mirror->handle() != no_handle) {
-            facts.add(mirror->twin().values().layers.layer, mirror->twin().reach());
+            facts.add(mirror->layers().layer, mirror->twin().reach());
         }
     }
     return facts;
@@ -314,9 +354,9 @@ SceneFacts BodyMirrors::facts() const {
 std::vector<QueriedBody> BodyMirrors::touchable(std::uint32_t mask) const {
     std::vector<QueriedBody> touchable;
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
-        const BodyTwin& twin = bodies_[i]->twin();
-        if (twin.touch() != nullptr && (twin.values().layers.layer & mask) != 0) {
-            touchable.push_back({twin.touch(), twin.pose(), i});
+        const BodyMirror& mirror = *bodies_[i];
+        if (mirror.twin().touch() != nullptr && (mirror.layers().layer & mask) != 0) {
+            touchable.push_back({mirror.twin().touch(), mirror.pose(), i});
         }
     }
     return touchable;

@@ -50,6 +50,9 @@ public:
     // Where the engine's own physics moves the bodies: it is about to step, and the session's snapshot is the
     // newest.
     void exchange(const PhysicsFrame& frame);
+    // Of the bodies that have a local model now: the largest size about its place (unit: meters); 0: none
+    // has.
+    double widest_led() const;
     // `tick` is the tick of the snapshot that the state is from. May call a script.
     void show(const BodyState& state, std::uint64_t tick, Session& session);
     // Gives all back to the engine's own physics.
@@ -77,6 +80,7 @@ private:
     void look_at_joints(const MirrorContext& context);
     void narrow(const MirrorContext& context, const std::vector<BodyMirror*>& built);
     void find_carried(const std::vector<std::uint64_t>& bodies);
+    void find_close(const PhysicsFrame& frame);
     bool has_to_wait(const BodyMirror& mirror) const;
     template <class Change>
     void change(BodyMirror& mirror, const Change& change);
@@ -97,6 +101,9 @@ private:
     };
     std::vector<Shown> by_handle_;
     std::vector<BodyMirror*> thrown_;  // of them all, those that can be
+    // Those that are close to a hand, where the engine's own physics moves them, by their ids; of these, the
+    // ones that came since the last synchronise().
+    std::vector<BodyMirror*> close_, arrived_;
     // By the body that takes them along in the scene: those that can be thrown and stand below it, parents
     // first.
     std::unordered_map<std::uint64_t, std::vector<BodyMirror*>> carried_;

@@ -207,3 +207,107 @@ func test_a_scripts_push_reaches_godots_body() -> void:
 	await get_tree().physics_frame
 	check_near(block.linear_velocity, Vector3(2, 0, 0), 1e-5, "speed")
 	check_near(world.get_linear_velocity(block), Vector3(2, 0, 0), 1e-5, "speed as the world has it")
+
+
+func _scripted(source: String) -> RigidBody3D:
+	var script := GDScript.new()
+	script.source_code = "extends RigidBody3D\n" + source
+	script.reload()
+	var body := with_shape(RigidBody3D.new(), sphere(0.1)) as RigidBody3D
+	body.set_script(script)
+	return body
+
+
+## What each of these makes of a world that chooses by itself.
+func _chosen(nodes: Array[Node], comes_later := false) -> HapticWorld.Authority:
+	var world := HapticWorld.new()
+	world.clock = HapticWorld.CLOCK_STEPPED
+	if comes_later:
+		add_child(world)
+		world.advance(FRAME)
+	for node in nodes:
+		world.add_child(node)
+	if not comes_later:
+		add_child(world)
+	else:
+		world.advance(FRAME)
+	var chosen := world.get_authority_in_use()
+	world.free()
+	return chosen
+
+
+func test_the_choice_by_itself() -> void:
+	var godots: Array[Callable] = [
+		func() -> Node: return VehicleWheel3D.new(),
+		func() -> Node: return GridMap.new(),
+		func() -> Node: return PhysicalBone3D.new(),
+		func() -> Node: return _scripted("func _integrate_forces(_state) -> void:\n\tpass\n"),
+		func() -> Node: return _scripted("func kick() -> void:\n\tapply_central_impulse(Vector3.UP)\n"),
+		func() -> Node:
+			var csg := CSGBox3D.new()
+			csg.use_collision = true
+			return csg,
+		func() -> Node:
+			var area := Area3D.new()
+			area.body_entered.connect(func(_body: Node) -> void: pass)
+			return area,
+		func() -> Node:
+			var body := RigidBody3D.new()
+			body.contact_monitor = true
+			return body,
+	]
+	var ours: Array[Callable] = [
+		func() -> Node: return with_shape(RigidBody3D.new(), sphere(0.1)),
+		func() -> Node: return with_shape(StaticBody3D.new(), sphere(0.1)),
+		func() -> Node: return Area3D.new(),
+		func() -> Node: return CSGBox3D.new(),
+		func() -> Node:
+			return _scripted("func kick(world, other) -> void:\n\tworld.apply_central_impulse(other)\n"),
+	]
+	for later: bool in [false, true]:
+		for i in godots.size():
+			var made: Array[Node] = [godots[i].call()]
+			check_equal(_chosen(made, later), HapticWorld.AUTHORITY_GODOT, "%d, later %s" % [i, later])
+		for i in ours.size():
+			var made: Array[Node] = [ours[i].call()]
+			check_equal(_chosen(made, later), HapticWorld.AUTHORITY_HAPTIC, "ours %d, later %s" % [i, later])
+	var with_link: Array[Node] = [GridMap.new(), MMTLink.new()]
+	(with_link[1] as MMTLink).scenario = MMTLink.SCENARIO_MMT
+	check_equal(_chosen(with_link), HapticWorld.AUTHORITY_HAPTIC, "with a link")
+
+
+## Its parent connects the signal when the world has begun with the bodies in its own hands: nothing is lost.
+func test_a_choice_that_is_made_late_loses_no_motion() -> void:
+	var places: Array[Vector3] = []
+	for with_world: bool in [false, true]:
+		await get_tree().physics_frame
+		var world := HapticWorld.new() if with_world else Node3D.new()
+		if with_world:
+			world.clock = HapticWorld.CLOCK_STEPPED
+		var ball := with_shape(RigidBody3D.new(), sphere(0.1), Vector3(0, 2, 0)) as RigidBody3D
+		ball.linear_velocity = Vector3(1, 2, 3)
+		ball.angular_velocity = Vector3(0, 4, 0)
+		var area := Area3D.new()
+		world.add_child(ball)
+		world.add_child(area)
+		add_child(world)
+		area.body_entered.connect(func(_body: Node) -> void: pass)
+		for _i in 30:
+			await get_tree().physics_frame
+		places.append(ball.position)
+		if with_world:
+			check_equal((world as HapticWorld).get_authority_in_use(), HapticWorld.AUTHORITY_GODOT, "choice")
+		world.free()
+	check_equal(places[1], places[0], "place")
+	check(places[0].x > 0.3, "it went to %s" % places[0])
+
+
+func test_a_soft_body_is_said() -> void:
+	var world := add_godot_world()
+	var soft := SoftBody3D.new()
+	soft.name = "Soft"
+	world.add_child(soft)
+	expect_error("a SoftBody3D is not carried over")
+	await get_tree().physics_frame
+	world.advance(FRAME)
+	check("\n".join(world.get_problems()).contains("Soft"), "%s" % world.get_problems())

@@ -14,6 +14,13 @@ const ROOTS := [
 const HEADINGS := PROPERTY_USAGE_GROUP | PROPERTY_USAGE_CATEGORY | PROPERTY_USAGE_SUBGROUP
 
 
+## What the table is about.
+func add_world() -> HapticWorld:
+	var world := super()
+	world.authority = HapticWorld.AUTHORITY_HAPTIC
+	return world
+
+
 func _rows() -> Array[Dictionary]:
 	var folder: String = (get_script() as Script).resource_path.get_base_dir()
 	var rows: Array[Dictionary] = []

@@ -50,6 +50,7 @@ const FAULTS := """[gd_scene format=3]
 [node name="Outside" type="StaticBody3D" parent="."]
 physics_material_override = SubResource("material")
 [node name="World" type="HapticWorld" parent="."]
+authority = 0
 [node name="Csg" type="CSGBox3D" parent="World"]
 use_collision = true
 [node name="Tiles" type="GridMap" parent="World"]

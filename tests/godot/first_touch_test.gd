@@ -173,6 +173,7 @@ func test_a_world_with_nothing_in_it() -> void:
 func test_what_is_not_carried_over() -> void:
 	for kind: String in ["CSGBox3D", "GridMap", "SoftBody3D", "PhysicalBone3D"]:
 		var world := _stepped()
+		world.authority = HapticWorld.AUTHORITY_HAPTIC
 		add_floor(world)
 		var node: Node = ClassDB.instantiate(kind)
 		if kind == "CSGBox3D":
@@ -186,6 +187,7 @@ func test_integrate_forces() -> void:
 	script.source_code = "extends RigidBody3D\nfunc _integrate_forces(_state) -> void:\n\tpass\n"
 	script.reload()
 	var world := _stepped()
+	world.authority = HapticWorld.AUTHORITY_HAPTIC
 	var body := with_shape(RigidBody3D.new(), sphere(0.1))
 	body.set_script(script)
 	world.add_child(body)

@@ -31,7 +31,7 @@ func material(stiffness: float) -> HapticMaterial:
 	return result
 
 
-func with_shape(body: CollisionObject3D, shape: Shape3D, at := Vector3.ZERO) -> CollisionObject3D:
+static func with_shape(body: CollisionObject3D, shape: Shape3D, at := Vector3.ZERO) -> CollisionObject3D:
 	var child := CollisionShape3D.new()
 	child.name = "Shape"
 	child.shape = shape
@@ -40,13 +40,13 @@ func with_shape(body: CollisionObject3D, shape: Shape3D, at := Vector3.ZERO) -> 
 	return body
 
 
-func box(size: Vector3) -> BoxShape3D:
+static func box(size: Vector3) -> BoxShape3D:
 	var shape := BoxShape3D.new()
 	shape.size = size
 	return shape
 
 
-func sphere(radius: float) -> SphereShape3D:
+static func sphere(radius: float) -> SphereShape3D:
 	var shape := SphereShape3D.new()
 	shape.radius = radius
 	return shape

@@ -67,6 +67,7 @@ struct Scene {
         MirrorContext context{session, workers, {}, 0.01, ticks + 1};
         context.together = together;
         context.mesh_changes = mesh_changes;
+        context.engine_moves = engine_moves;
         mirrors.synchronise(context);
         session.tick(static_cast<Nanoseconds>(ticks++) * 1'000'000);
         if (session.refresh()) {
@@ -74,6 +75,12 @@ struct Scene {
                 mirrors.show(session.snapshot().bodies[i], session.snapshot().tick, session);
             }
         }
+    }
+    // With a step of the engine's own physics, for which these bodies are close to a hand.
+    void engine_frame(const std::vector<std::uint64_t>& close) {
+        const Vec3 hand(100.0);
+        mirrors.exchange({session, {&hand, 1}, close, 0.01, 0.001});
+        frame();
     }
     void frames(int count) {
         for (int i = 0; i < count; ++i) {
@@ -87,8 +94,52 @@ struct Scene {
     BodyMirrors mirrors;
     Session session;
     std::uint64_t ticks = 0, mesh_changes = 0;
-    bool has_changed = true, together = false;
+    bool has_changed = true, together = false, engine_moves = false;
 };
+
+TEST(BodiesThatAnEngineMoves, AreNeitherReadNorThereFarFromHands) {
+    for (const bool in_turn : {false, true}) {
+        Scene scene(in_turn);
+        scene.engine_moves = true;
+        Prop& prop = scene.add();
+        scene.frame();
+        const BodyMirror& mirror = *scene.mirrors.bodies()[0];
+        EXPECT_TRUE(mirror.is_far());
+        EXPECT_FALSE(prop.tells_of_moves);
+        EXPECT_EQ(mirror.twin().values().layers.layer, 0u);
+        EXPECT_EQ(mirror.layers().layer, 1u);
+
+        prop.frame.origin = {5.0, 0.0, 0.0};
+        for (int i = 0; i < 200; ++i) {
+            scene.engine_frame({});
+        }
+        EXPECT_EQ(mirror.twin().pose().position.x, 0.0) << "it was read";
+        EXPECT_EQ(scene.mirrors.touchable(1).at(0).pose.position.x, 5.0) << "queries know where it is";
+
+        scene.engine_frame({prop.id});
+        EXPECT_FALSE(mirror.is_far());
+        EXPECT_TRUE(prop.tells_of_moves);
+        EXPECT_EQ(mirror.twin().values().layers.layer, 1u);
+        EXPECT_EQ(mirror.twin().pose().position.x, 5.0);
+        for (int i = 0; i < 40; ++i) {
+            scene.engine_frame({});
+        }
+        EXPECT_TRUE(mirror.is_far());
+        EXPECT_EQ(mirror.twin().values().layers.layer, 0u);
+    }
+}
+
+TEST(BodiesThatAnEngineMoves, StayWhereTheyAreStill) {
+    Scene scene;
+    scene.engine_moves = true;
+    Prop& prop = scene.add();
+    prop.values.motion = Motion::Static;
+    scene.frame();
+    scene.engine_frame({});
+    EXPECT_FALSE(scene.mirrors.bodies()[0]->is_far());
+    EXPECT_EQ(scene.mirrors.bodies()[0]->twin().values().layers.layer, 1u);
+    EXPECT_TRUE(prop.tells_of_moves);
+}
 
 TEST(BodyMirrors, ABodyThatIsThrownIsShownWhereItGoes) {
     Scene scene;

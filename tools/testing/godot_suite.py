@@ -1,7 +1,7 @@
 """The headless tests of tests/godot: godot.FILE.TEST. One Godot per file, so that what it prints has an owner.
 
 Files of RELEASED run once more, as godot.released.FILE.TEST, in a program that is exported for players; those of EDITED run
-in the editor, and nowhere else.
+in the editor, and nowhere else. Those of WITH_EACH_ENGINE run with each of Godot's own physics engines, as godot.ENGINE.FILE.TEST.
 
 A file passes only with its END marker, and a test only without lines of error or leak that it has not announced.
 """
@@ -24,6 +24,8 @@ FOLDER = cache.clone() / "tests/godot"
 PROJECT = cache.clone() / "demo_project"
 RELEASED = ["first_touch_test", "misuse_test", "random_calls_test", "scripts_test", "turns_test"]
 EDITED = ["citizen_editor_test", "editor_test"]
+WITH_EACH_ENGINE = ["games_test", "felt_test", "uneven_frames_test"]
+ENGINES = {"jolt": "Jolt Physics", "own": "GodotPhysics3D"}
 NEED_EYES = ["scenario5_test", "sensing_test"]
 MAIN_SCENE = """[gd_scene load_steps=2 format=3]
 
@@ -56,7 +58,8 @@ def _files() -> list[Path]:
 
 
 def _names(path: Path) -> list[str]:
-    return [_prefix(path) + name for name in re.findall(r"^func (test_\w+)", path.read_text(), re.M)]
+    names = re.findall(r"^func (test_\w+)", path.read_text(), re.M)
+    return [prefix + name for prefix in _prefixes(path) for name in names]
 
 
 def _released_names(path: Path) -> list[str]:
@@ -90,10 +93,29 @@ def _prefix(path: Path) -> str:
     return f"godot.{path.stem}."
 
 
+def _prefixes(path: Path) -> list[str]:
+    return [f"godot.{engine}.{path.stem}." for engine in ENGINES] if path.stem in WITH_EACH_ENGINE else [_prefix(path)]
+
+
 def _run_file(path: Path, chosen: list[str]) -> list[Result]:
-    names = [name.removeprefix(_prefix(path)) for name in chosen]
-    command = [str(godot.command()), "--headless", "--path", PROJECT, "--script", FOLDER / "run_tests.gd", "--", path]
-    return _run(_prefix(path), command, names)
+    results = []
+    for prefix in _prefixes(path):
+        names = [name.removeprefix(prefix) for name in chosen if name.startswith(prefix)]
+        folder = _with_engine(prefix.split(".")[1]) if path.stem in WITH_EACH_ENGINE else PROJECT
+        command = [str(godot.command()), "--headless", "--path", folder, "--script", FOLDER / "run_tests.gd", "--", path]
+        results += _run(prefix, command, names) if names else []
+    return results
+
+
+def _with_engine(name: str) -> Path:
+    """The demo project, whose bodies are moved by that engine of Godot's."""
+    folder = cache.emptied(cache.clone() / "build/engine_tests" / name)
+    for part in PROJECT.iterdir():
+        if part.name != "project.godot":
+            (folder / part.name).symlink_to(part)
+    settings = (PROJECT / "project.godot").read_text()
+    (folder / "project.godot").write_text(settings + f'\n[physics]\n\n3d/physics_engine="{ENGINES[name]}"\n')
+    return folder
 
 
 def _run_edited(path: Path, chosen: list[str]) -> list[Result]:
