@@ -53,7 +53,7 @@ VARIANT_TYPES = {
     "PackedInt32Array": "PACKED_INT32_ARRAY", "AABB": "AABB",
     "PackedFloat32Array": "PACKED_FLOAT32_ARRAY", "PackedFloat64Array": "PACKED_FLOAT64_ARRAY",
 }  # fmt: skip
-RESOURCES = {"Curve3D", "HapticVolume", "HapticForce", "HapticGuide", "HapticMaterial", "HapticPath", "MMTNetworkConditions", "MMTTuning", "Material", "Mesh", "Texture2D"}
+RESOURCES = {"Curve", "Curve3D", "HapticVolume", "HapticForce", "HapticGuide", "HapticMaterial", "HapticPath", "MMTNetworkConditions", "MMTTuning", "Material", "Mesh", "Texture2D"}
 
 OWN_ATTRIBUTES = {
     "class": ["header", "includes", "changed", "was", "statistics_of"],
@@ -212,8 +212,9 @@ class ClassTable:
 
     @staticmethod
     def node_type(member):
-        """Of the node that the path leads to; empty: it is no such path."""
-        return member.get("hint", "").partition("NODE_PATH_VALID_TYPES:")[2]
+        """Of the node that the path leads to; empty: it is no such path. Where it may be one of several classes: any."""
+        types = member.get("hint", "").partition("NODE_PATH_VALID_TYPES:")[2]
+        return "Node3D" if "," in types else types
 
     def node_member(self, member):
         """The node that the path leads to, for scripts: neither shown nor stored."""

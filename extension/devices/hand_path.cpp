@@ -157,4 +157,9 @@ Nanoseconds path_duration(const HandPath& path) {
     return circle != nullptr ? circle->turn_time : std::get_if<KeyframePath>(&path)->keyframes.back().time;
 }
 
+bool path_repeats(const HandPath& path) {
+    const auto* keyframes = std::get_if<KeyframePath>(&path);
+    return keyframes == nullptr || keyframes->loop;
+}
+
 }  // namespace tactus

@@ -58,5 +58,7 @@ HandSample sample_path(const HandPath& path, Nanoseconds time);
 
 // From the start to the end, or to the beginning of the next round.
 Nanoseconds path_duration(const HandPath& path);
+// Whether it begins again at its end.
+bool path_repeats(const HandPath& path);
 
 }  // namespace tactus

@@ -3,11 +3,7 @@
 namespace tactus {
 
 DeviceSample PathDevice::read(Nanoseconds now) {
-    if (!started_) {
-        started_ = true;
-        start_ = now;
-    }
-    const HandSample hand = sample_path(path_, now - start_);
+    const HandSample hand = sample_path(path_, clock_.at(now));
     DeviceSample sample;
     sample.position = hand.position;
     sample.velocity = hand.velocity;

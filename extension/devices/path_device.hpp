@@ -1,8 +1,9 @@
-// A hand that follows a script and feels nothing. Its path begins with the first tick that reads it.
+// A hand that follows a script and feels nothing.
 #pragma once
 
 #include "core/ports/device.hpp"
 #include "devices/hand_path.hpp"
+#include "devices/path_clock.hpp"
 
 namespace tactus {
 
@@ -14,10 +15,11 @@ public:
     DeviceSample read(Nanoseconds now) override;
     void write(Nanoseconds, const Vec3&) override {}
 
+    PathClock& clock() { return clock_; }
+
 private:
     HandPath path_;
-    Nanoseconds start_ = 0;
-    bool started_ = false;
+    PathClock clock_;
 };
 
 }  // namespace tactus

@@ -19,14 +19,15 @@ DeviceSample SimulatedArm::read(Nanoseconds now) {
     if (changed_.refresh()) {
         settings_ = changed_.front();
     }
+    const Nanoseconds time = clock_.at(now);
     if (!started_) {
         started_ = true;
-        start_ = read_at_ = now;
+        read_at_ = now;
         const HandSample first = sample_path(path_, 0);
         arm_ = {first.position, first.velocity};
     }
     if (now > read_at_) {
-        const HandSample intended = sample_path(path_, (now + read_at_) / 2 - start_);
+        const HandSample intended = sample_path(path_, time - (now - read_at_) / 2);
         arm_ = step_arm(settings_, arm_, intended, force_, to_seconds(now - read_at_));
         read_at_ = now;
     }

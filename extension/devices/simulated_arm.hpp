@@ -4,6 +4,7 @@
 
 #include "core/ports/device.hpp"
 #include "devices/hand_path.hpp"
+#include "devices/path_clock.hpp"
 #include "realtime/triple_buffer.hpp"
 
 namespace tactus {
@@ -35,6 +36,9 @@ public:
     // Any one thread, any time: from the next tick on the arm is another one, where it is.
     void change(const ArmSettings& settings) { changed_.publish(settings); }
 
+    // Where its path begins anew, it means to go there from where it is.
+    PathClock& clock() { return clock_; }
+
     DeviceSample read(Nanoseconds now) override;
     void write(Nanoseconds, const Vec3& force) override { force_ = force; }
 
@@ -44,7 +48,7 @@ private:
     TripleBuffer<ArmSettings> changed_;
     ArmState arm_;
     Vec3 force_{0.0};  // held until the next one (unit: newtons)
-    Nanoseconds start_ = 0;
+    PathClock clock_;
     Nanoseconds read_at_ = 0;
     bool started_ = false;
 };

@@ -13,4 +13,8 @@ namespace tactus {
 // is no curve of two points.
 std::vector<Vec3> places_along(const godot::Ref<godot::Curve3D>& curve);
 
+// As few as it takes for straight lines between them to be no farther from the curve than that (unit:
+// meters).
+std::vector<Vec3> places_near(const godot::Ref<godot::Curve3D>& curve, double tolerance);
+
 }  // namespace tactus

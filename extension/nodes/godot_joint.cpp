@@ -8,6 +8,7 @@
 #include <godot_cpp/core/object.hpp>
 
 #include "nodes/body_reading.hpp"
+#include "nodes/haptic_joint_drive.hpp"
 #include "world/joint_limits.hpp"
 
 namespace tactus {
@@ -99,6 +100,9 @@ JointReading read_joint(const Joint3D& node) {
                           "Generic6DOFJoint3D";
         reading.usable = false;
     }
+    // Angles are the first body's against the second, and lengths the second's against the first, as limits
+    // are.
+    reading.joint.drive = HapticJointDrive::of(node, reading.joint.kind == JointKind::Hinge ? -1.0 : 1.0);
     reading.joint.bodies_collide = !node.get_exclude_nodes_from_collision();
     reading.joint.frame = pose_of(node.get_global_transform());
     if (std::string wrong = wrong_in(reading.joint); reading.usable && !wrong.empty()) {

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <tuple>
+#include <utility>
 
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_device.hpp"
 #include "nodes/haptic_effect.hpp"
 #include "nodes/haptic_world.hpp"
 #include "nodes/roll.hpp"
+#include "nodes/signals.hpp"
 #include "nodes/tree_walk.hpp"
 
 namespace tactus {
@@ -49,6 +51,38 @@ SessionHandle handle_in(const std::vector<Mirror>& mirrors, const Node* node) {
     const std::uint64_t id = node != nullptr ? node->get_instance_id() : 0;
     const auto found = std::ranges::find(mirrors, id, &Mirror::id);
     return found != mirrors.end() ? found->twin.handle() : no_handle;
+}
+
+// With the id of its body's node; 0: that is gone.
+using EventNews = std::pair<TouchEvent, std::uint64_t>;
+
+// Those that have come since, and `read` counts them.
+std::vector<EventNews> events_since(const TouchEvents& events, std::uint64_t& read,
+                                    const HandMirrors::NodeOf& node_of) {
+    std::vector<EventNews> news;
+    const std::uint64_t oldest = events.count > TouchEvents::most ? events.count - TouchEvents::most : 0;
+    for (std::uint64_t i = std::max(read, oldest); i < events.count; ++i) {
+        const TouchEvent& event = events.ring[i % TouchEvents::most];
+        news.emplace_back(event, node_of(event.body));
+    }
+    read = events.count;
+    return news;
+}
+
+void post_event(const Object& from, const EventNews& news) {
+    const auto& [event, id] = news;
+    if (id == 0) {
+        return;
+    }
+    const SignalArgument body = SignalArgument::object(id);
+    switch (event.kind) {
+        case TouchEvent::Kind::impact:
+            return post_signal(from, "impact", {body, event.speed, event.impulse});
+        case TouchEvent::Kind::broken:
+            return post_signal(from, "surface_broken", {body, event.force});
+        case TouchEvent::Kind::left:
+            return post_signal(from, "surface_left", {body});
+    }
 }
 
 // use(node, twin) for those that are there.
@@ -101,17 +135,24 @@ void HandMirrors::synchronise(HapticDevice& node, DeviceTwin& twin, Session& ses
 
 namespace {
 
-HandEffects effects_on(const ProxyPointer& node, Complaints& complaints) {
-    HandEffects effects;
+// Those of the scene, besides its own guide.
+void add_aids(const Node3D& hand, Complaints& complaints, HandAids& aids) {
     for (const HapticEffect* effect : Roll<HapticEffect>::all()) {
-        const auto form = effect->proxy_node() == &node ? effect->closed_form() : std::nullopt;
-        if (form && effects.count == HandEffects::most) {
+        if (effect->hand_node() != &hand) {
+            continue;
+        }
+        HandEffects& effects = aids.effects;
+        if (const auto form = effect->closed_form(); form && effects.count == HandEffects::most) {
             complaints.say(*effect, "its hand has eight forces already: switch one of them off");
         } else if (form) {
             effects.items[effects.count++] = *form;
         }
+        if (const auto guide = effect->placed_guide(); guide && aids.guide_count == HandAids::most_guides) {
+            complaints.say(*effect, "its hand has four guides already: switch one of them off");
+        } else if (guide) {
+            aids.add(*guide);
+        }
     }
-    return effects;
 }
 
 }  // namespace
@@ -125,7 +166,7 @@ void HandMirrors::synchronise(ProxyPointer& node, ProxyTwin& twin, Session& sess
     }
     const SessionHandle device = handle_in(devices_, node.device_node());
     ProxyDescription description = node.description(device);
-    description.effects = effects_on(node, complaints);
+    add_aids(node, complaints, description.aids);
     complaints.say(node, twin.synchronise(session, description));
 }
 
@@ -142,7 +183,9 @@ void HandMirrors::synchronise(HapticTool& node, ToolTwin& twin, Session& session
     complaints.say(node, node.hindrance());
     const SessionHandle device = handle_in(devices_, node.device_node());
     const SessionHandle before = twin.handle();
-    complaints.say(node, twin.synchronise(session, node.shape(), node.use(device)));
+    ToolUse use = node.use(device);
+    add_aids(node, complaints, use.aids);
+    complaints.say(node, twin.synchronise(session, node.shape(), use));
     if (before != no_handle && twin.handle() != before) {
         node.clear_state();
     }
@@ -192,8 +235,10 @@ double HandMirrors::smallest_radius() const {
     return smallest;
 }
 
-SessionHandle HandMirrors::handle_of(const ProxyPointer* proxy) const {
-    return handle_in(proxies_, proxy);
+SessionHandle HandMirrors::handle_of(const Node3D* hand) const {
+    const SessionHandle proxy = handle_in(proxies_, hand);
+    const SessionHandle tool = proxy == no_handle ? handle_in(tools_, hand) : no_handle;
+    return tool == no_handle ? proxy : hand_of_tool(tool);
 }
 
 void HandMirrors::end_contacts(std::uint64_t node) {
@@ -236,17 +281,19 @@ void HandMirrors::show_devices(const SessionSnapshot& snapshot) {
 
 // From copies: a node that is moved may call a script.
 template <class NodeType, class State, class Mirror, std::size_t capacity>
-void HandMirrors::show(const std::vector<Mirror>& mirrors, const std::array<State, capacity>& states,
-                       std::size_t count, const NodeOf& node_of) {
+void HandMirrors::show(std::vector<Mirror>& mirrors, const std::array<State, capacity>& states,
+                       std::size_t count, std::span<const TouchEvents> events, const NodeOf& node_of) {
     struct News {
         std::uint64_t node;
         State state;
         ContactIds<State> bodies;
+        std::vector<EventNews> events;
     };
     std::vector<News> all;
-    for (const auto& [id, twin] : mirrors) {
-        if (const State* state = state_of(states, count, twin.handle())) {
-            all.push_back({id, *state, body_ids(*state, node_of)});
+    for (Mirror& mirror : mirrors) {
+        if (const State* state = state_of(states, count, mirror.twin.handle())) {
+            all.push_back({mirror.id, *state, body_ids(*state, node_of),
+                           events_since(events[state->handle], mirror.events_read, node_of)});
         }
     }
     for (News& news : all) {
@@ -254,14 +301,18 @@ void HandMirrors::show(const std::vector<Mirror>& mirrors, const std::array<Stat
         add_others(news.state, mirrors, news.bodies);
         if (auto* node = node_of_id<NodeType>(news.node)) {
             node->take_state(news.state, news.bodies);
+            for (const EventNews& event : news.events) {
+                post_event(*node, event);
+            }
         }
     }
 }
 
 void HandMirrors::show_pointers(const SessionSnapshot& snapshot, const NodeOf& node_of) {
     touched_.clear();
-    show<ProxyPointer>(proxies_, snapshot.proxies, snapshot.proxy_count, node_of);
-    show<HapticTool>(tools_, snapshot.tools, snapshot.tool_count, node_of);
+    const std::span events(snapshot.touch_events);
+    show<ProxyPointer>(proxies_, snapshot.proxies, snapshot.proxy_count, events, node_of);
+    show<HapticTool>(tools_, snapshot.tools, snapshot.tool_count, events.subspan(max_proxies), node_of);
 }
 
 }  // namespace tactus

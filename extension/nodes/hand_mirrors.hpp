@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "nodes/haptic_tool.hpp"
@@ -48,8 +49,8 @@ public:
     // Of a fingertip in this world (unit: meters); 0: there is none.
     double smallest_radius() const;
 
-    // no_handle where there is none.
-    SessionHandle handle_of(const ProxyPointer* proxy) const;
+    // Of a proxy, or hand_of_tool(); no_handle where there is none.
+    SessionHandle handle_of(const godot::Node3D* hand) const;
     // The session has let go of what has left.
     void forget_retired() { retired_.clear(); }
 
@@ -61,10 +62,12 @@ private:
     struct ProxyMirror {
         std::uint64_t id = 0;
         ProxyTwin twin;
+        std::uint64_t events_read = 0;  // see TouchEvents::count
     };
     struct ToolMirror {
         std::uint64_t id = 0;
         ToolTwin twin;
+        std::uint64_t events_read = 0;
     };
 
     void synchronise(HapticDevice& node, DeviceTwin& twin, Session& session, Complaints& complaints,
@@ -72,8 +75,8 @@ private:
     void synchronise(ProxyPointer& node, ProxyTwin& twin, Session& session, Complaints& complaints);
     void synchronise(HapticTool& node, ToolTwin& twin, Session& session, Complaints& complaints, bool waits);
     template <class NodeType, class State, class Mirror, std::size_t capacity>
-    void show(const std::vector<Mirror>& mirrors, const std::array<State, capacity>& states,
-              std::size_t count, const NodeOf& node_of);
+    void show(std::vector<Mirror>& mirrors, const std::array<State, capacity>& states, std::size_t count,
+              std::span<const TouchEvents> events, const NodeOf& node_of);
     void remove(DeviceTwin& twin, Session& session) { twin.remove(session, retired_); }
     void remove(ProxyTwin& twin, Session& session) { twin.remove(session); }
     void remove(ToolTwin& twin, Session& session) { twin.remove(session); }

@@ -37,15 +37,25 @@ const Color box_color(0.1f, 0.4f, 0.9f, 0.5f);
 
 void HapticDevice::changed() {
     path_problem_ = path_.is_valid() ? path_->get_problem() : String();
+    path_end_ = path_end();
     hand_ = {};
+    is_path_end_told_ = false;
     space_mouse_.reset();
     set_process_internal(!is_edited() && (is_steered(kind()) || kind() == HandKind::node));
     draw_box();
     update_configuration_warnings();
 }
 
+std::optional<Nanoseconds> HapticDevice::path_end() const {
+    if (!follows_path(kind()) || path_.is_null() || !path_problem_.is_empty()) {
+        return std::nullopt;
+    }
+    const HandPath path = path_->hand_path();
+    return path_repeats(path) ? std::nullopt : std::optional(path_duration(path));
+}
+
 double HapticDevice::get_workspace_radius() const {
-    return state_.radius > 0.0 ? state_.radius : usual_radius(kind(), steering_);
+    return state_.capabilities.radius > 0.0 ? state_.capabilities.radius : usual_radius(kind(), steering_);
 }
 
 TypedArray<Dictionary> HapticDevice::find_devices() {
@@ -236,7 +246,7 @@ Dictionary HapticDevice::get_delay_distribution() const {
 
 void HapticDevice::take_state(const DeviceState& state) {
     const DeviceState before = std::exchange(state_, state);
-    if (before.radius != state.radius) {
+    if (before.capabilities.radius != state.capabilities.radius) {
         draw_box();
     }
     for (const HandEvent& event : hand_events(before, state)) {
@@ -246,7 +256,42 @@ void HapticDevice::take_state(const DeviceState& state) {
         }
         post_signal(*this, event.name, arguments);
     }
+    tell_path_end();
     told_.tell(*this);
+}
+
+void HapticDevice::restart_path() {
+    hand_.restart_path();
+    is_path_end_told_ = false;
+}
+
+// Once for each round that does not begin again by itself.
+void HapticDevice::tell_path_end() {
+    const Nanoseconds time = hand_.path_time();
+    if (path_end_ && !is_path_end_told_ && time > 0 && time >= *path_end_) {
+        is_path_end_told_ = true;
+        post_signal(*this, "path_finished");
+    }
+}
+
+Dictionary HapticDevice::get_capabilities() const {
+    Dictionary told;
+    if (!state_.connected) {
+        return told;
+    }
+    const DeviceCapabilities& can = state_.capabilities;
+    told["has_motors"] = can.feels;
+    told["measures_rotation"] = can.rotates;
+    told["max_force"] = can.max_force;
+    told["max_torque"] = can.max_torque;
+    told["max_force_rate"] = can.max_slew;
+    told["max_speed"] = can.max_speed;
+    told["damping"] = can.damping;
+    told["delay"] = can.delay;
+    told["rate"] = can.rate;
+    told["workspace_radius"] = can.radius;
+    told["safe_stiffness"] = safe_wall(state_.lag, can.damping, {DeviceCapabilities::any, 0.0}).stiffness;
+    return told;
 }
 
 Workspace HapticDevice::workspace() const {

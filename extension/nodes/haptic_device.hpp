@@ -8,6 +8,7 @@
 #include <godot_cpp/variant/node_path.hpp>
 #include <godot_cpp/variant/typed_array.hpp>
 #include <memory>
+#include <optional>
 
 #include "devices/space_mouse.hpp"
 #include "nodes/haptic_path.hpp"
@@ -33,7 +34,11 @@ public:
     double get_energy() const { return state_.work; }
     godot::Quaternion get_hand_rotation() const { return to_godot(state_.rotation); }
     godot::Vector3 get_force() const { return to_godot(state_.force); }
+    godot::Vector3 get_requested_force() const { return to_godot(state_.asked); }
     godot::Vector3 get_displayed_force() const;
+    godot::Dictionary get_capabilities() const;
+    void restart_path();
+    double get_path_time() const { return to_seconds(hand_.path_time()); }
     godot::Dictionary get_force_cuts() const;
     godot::Dictionary get_delay_distribution() const;
     godot::Vector3 get_torque() const { return to_godot(state_.torque); }
@@ -73,6 +78,8 @@ protected:
 
 private:
     godot::String problem() const;
+    std::optional<Nanoseconds> path_end() const;
+    void tell_path_end();
     void changed();
     void driver_changed();
     void arm_changed() { hand_.change(plan_.arm); }
@@ -100,6 +107,8 @@ private:
     bool show_workspace_ = false;
 
     SceneHand hand_;
+    std::optional<Nanoseconds> path_end_;  // of the path that it follows; none: it never ends
+    bool is_path_end_told_ = false;
     std::unique_ptr<SpaceMouse> space_mouse_;  // of that driver alone
     DeviceState state_;
     godot::MeshInstance3D* box_ = nullptr;  // made when it is first seen

@@ -4,6 +4,7 @@
 #include <godot_cpp/variant/utility_functions.hpp>
 
 #include "nodes/conversions.hpp"
+#include "nodes/haptic_tool.hpp"
 #include "nodes/haptic_world.hpp"
 #include "nodes/messages.hpp"
 #include "nodes/proxy_choice.hpp"
@@ -17,26 +18,29 @@ namespace tactus {
 
 using namespace godot;
 
-const ProxyPointer* HapticEffect::proxy_node() const {
-    return chosen_proxy(*this, proxy_);
+const Node3D* HapticEffect::hand_node() const {
+    return chosen_hand(*this, proxy_);
 }
 
 String HapticEffect::problem() const {
     if (!enabled_) {
         return String();
     }
-    const String without_proxy = problem_of_proxy(*this, proxy_);
+    const String without_proxy = problem_of_hand(*this, proxy_);
     if (!without_proxy.is_empty()) {
         return without_proxy;
     }
     if (formula_.is_valid()) {
         return formula_->get_problem();
     }
+    if (guide_.is_valid()) {
+        return guide_->get_problem();
+    }
     if (has_method(method_)) {
         return String();
     }
     return "its script has no method '" + method_ +
-           "': set 'formula', or write one that answers with a force, a Vector3 in newtons";
+           "': set 'formula' or 'guide', or write one that answers with a force, a Vector3 in newtons";
 }
 
 PackedStringArray HapticEffect::_get_configuration_warnings() const {
@@ -64,8 +68,11 @@ String HapticEffect::get_state_text() const {
     if (!wrong.is_empty()) {
         return wrong;
     }
-    const ProxyPointer* const proxy = proxy_node();
-    return proxy != nullptr && proxy->is_field_limited()
+    const auto* const proxy = Object::cast_to<ProxyPointer>(hand_node());
+    const auto* const tool = Object::cast_to<HapticTool>(hand_node());
+    const bool is_limited =
+        (proxy != nullptr && proxy->is_field_limited()) || (tool != nullptr && tool->is_field_limited());
+    return is_limited
                ? String(
                      "working, weaker than its script says: its force leaps, or changes within a short way, "
                      "more steeply than is safe; let it rise over a longer way, or use a body")
@@ -79,13 +86,22 @@ void HapticEffect::enabled_changed() {
     update_configuration_warnings();
 }
 
-std::optional<HandEffect> HapticEffect::closed_form() const {
-    if (!enabled_ || formula_.is_null() || !problem().is_empty()) {
-        return std::nullopt;
-    }
+bool HapticEffect::is_on() const {
+    return enabled_ && problem().is_empty();
+}
+
+// Of the node above it; the world's where that is the hand itself, which moves.
+Transform3D HapticEffect::frame() const {
     const auto* const above = Object::cast_to<Node3D>(get_parent());
-    const bool has_frame = above != nullptr && Object::cast_to<ProxyPointer>(above) == nullptr;
-    return formula_->effect(has_frame ? above->get_global_transform() : Transform3D());
+    return above != nullptr && !is_hand(above) ? above->get_global_transform() : Transform3D();
+}
+
+std::optional<HandEffect> HapticEffect::closed_form() const {
+    return formula_.is_valid() && is_on() ? std::optional(formula_->effect(frame())) : std::nullopt;
+}
+
+std::optional<HandGuide> HapticEffect::placed_guide() const {
+    return guide_.is_valid() && is_on() ? std::optional(guide_->guide(frame())) : std::nullopt;
 }
 
 bool HapticEffect::begin_frame() {

@@ -1,21 +1,20 @@
 #pragma once
 
-#include <godot_cpp/classes/node.hpp>
+#include <godot_cpp/classes/node3d.hpp>
 #include <godot_cpp/variant/node_path.hpp>
 #include <optional>
 
 #include "core/haptics/hand_effect.hpp"
 #include "nodes/haptic_force.hpp"
+#include "nodes/haptic_guide.hpp"
 #include "nodes/node_state.hpp"
 #include "nodes/properties.hpp"
 #include "world/frame_budget.hpp"
 
 namespace tactus {
 
-class ProxyPointer;
-
-// A force on the hand: in closed form, or as a script computes it, once a frame. The haptic thread never
-// calls a script.
+// A force on the hand: in closed form, of a guide, or as a script computes it, once a frame. The haptic
+// thread never calls a script.
 class HapticEffect : public godot::Node {
     GDCLASS(HapticEffect, godot::Node)
 
@@ -33,9 +32,10 @@ public:
 
     // --- for the world that it is in
 
-    const ProxyPointer* proxy_node() const;
+    const godot::Node3D* hand_node() const;         // a ProxyPointer or a HapticTool; null: none
     godot::String problem() const;                  // empty where there is none
     std::optional<HandEffect> closed_form() const;  // nothing where it has none, or is off
+    std::optional<HandGuide> placed_guide() const;  // as above
     // Once a frame: whether the script is asked in this one, the questions, and whether it may stay on. It
     // answers with the force on that hand at this time of the world (unit: seconds), or with nothing where
     // that switches it off. The script may free whatever it likes but this node.
@@ -49,10 +49,13 @@ protected:
 
 private:
     void enabled_changed();
+    bool is_on() const;
+    godot::Transform3D frame() const;
     void switch_off(const godot::String& why);
 
     godot::NodePath proxy_;
     godot::Ref<HapticForce> formula_;
+    godot::Ref<HapticGuide> guide_;
     godot::String method_ = "_get_force";
     double time_budget_ = 1e-3;  // (unit: seconds)
     bool enabled_ = true;

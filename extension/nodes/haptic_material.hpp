@@ -1,5 +1,6 @@
 #pragma once
 
+#include <godot_cpp/classes/curve.hpp>
 #include <godot_cpp/classes/physics_material.hpp>
 #include <godot_cpp/classes/texture2d.hpp>
 #include <godot_cpp/core/binder_common.hpp>
@@ -48,6 +49,8 @@ public:
     std::string problem() const;
     // The same for a body; null where there are none.
     std::shared_ptr<const TouchDetail> detail() const;
+    // The properties that are set and that tools do not feel, as "'a', 'b'"; empty where there are none.
+    std::string unfelt_by_tools() const;
     bool is_laid_by_uv() const { return mapping_ == TEXTURE_MAPPING_UV && (images() != TouchImages()); }
 
 protected:
@@ -56,6 +59,7 @@ protected:
 private:
     void texture_changed();
     void friction_changed();
+    void curve_changed();
 
     MaterialValues values() const { return {touch_, get_friction(), get_bounce()}; }
 
@@ -63,6 +67,7 @@ private:
     PresetChoice choice_;
     godot::Ref<godot::Texture2D> texture_;
     godot::Ref<godot::Texture2D> friction_;
+    godot::Ref<godot::Curve> curve_;
     TextureMapping mapping_ = TEXTURE_MAPPING_FRAME;
     mutable TouchImages read_;  // each once, when somebody asks
 };

@@ -6,7 +6,7 @@
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_world.hpp"
 #include "nodes/messages.hpp"
-#include "nodes/proxy_pointer.hpp"
+#include "nodes/proxy_choice.hpp"
 #include "nodes/roll.hpp"
 #include "nodes/scene_warnings.hpp"
 #include "nodes/tree_walk.hpp"
@@ -20,8 +20,9 @@ HapticRecorder::~HapticRecorder() {
     close();
 }
 
-const ProxyPointer* HapticRecorder::proxy_node() const {
-    return node_at<ProxyPointer>(*this, proxy_);
+const Node3D* HapticRecorder::hand_node() const {
+    const auto* named = node_at<Node3D>(*this, proxy_);
+    return is_hand(named) ? named : nullptr;
 }
 
 const Node* HapticRecorder::object_node() const {
@@ -30,10 +31,10 @@ const Node* HapticRecorder::object_node() const {
 
 String HapticRecorder::problem() const {
     if (proxy_.is_empty()) {
-        return "it has no proxy: set 'proxy' to a ProxyPointer of the scene";
+        return "it has no proxy: set 'proxy' to a ProxyPointer or a HapticTool of the scene";
     }
-    if (proxy_node() == nullptr) {
-        return wrong_path("proxy", proxy_, "a ProxyPointer");
+    if (hand_node() == nullptr) {
+        return wrong_path("proxy", proxy_, "a ProxyPointer or a HapticTool");
     }
     return object_.is_empty() || is_solid_body(object_node())
                ? String()

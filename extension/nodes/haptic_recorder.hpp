@@ -1,6 +1,6 @@
 #pragma once
 
-#include <godot_cpp/classes/node.hpp>
+#include <godot_cpp/classes/node3d.hpp>
 #include <godot_cpp/core/binder_common.hpp>
 #include <godot_cpp/variant/node_path.hpp>
 #include <memory>
@@ -10,8 +10,6 @@
 #include "world/recording.hpp"
 
 namespace tactus {
-
-class ProxyPointer;
 
 // Writes down every tick of one proxy. The loop puts rows into a ring; the main thread writes them to the
 // file.
@@ -44,7 +42,7 @@ public:
 
     // --- for the world that is recorded
 
-    const ProxyPointer* proxy_node() const;
+    const godot::Node3D* hand_node() const;  // a ProxyPointer or a HapticTool; null: none
     const godot::Node* object_node() const;
     godot::String problem() const;  // empty where there is none
     void tell_state() { told_.tell(*this); }

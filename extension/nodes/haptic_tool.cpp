@@ -118,6 +118,13 @@ PackedStringArray HapticTool::_get_configuration_warnings() const {
             warn(warnings, "This HapticTool cannot touch", wrong);
         }
     }
+    if (const HapticWorld* world = HapticWorld::above(this)) {
+        warn(warnings, "This HapticTool feels a surface in part",
+             problem_of_tool_surfaces(*world, settings_.mask));
+    }
+    if (guide_.is_valid()) {
+        warn(warnings, "This guide has no effect", guide_->get_problem());
+    }
     return warnings;
 }
 
@@ -127,6 +134,9 @@ ToolUse HapticTool::use(SessionHandle device) const {
     use.settings = settings_;
     use.grasp = {grasp_position_, turned_by(grasp_rotation_)};
     use.enabled = enabled_;
+    if (guide_.is_valid()) {
+        use.aids.add(guide_->guide(Transform3D()));
+    }
     return use;
 }
 

@@ -10,6 +10,7 @@
 
 #include "core/tool/tool_shape.hpp"
 #include "nodes/device_choice.hpp"
+#include "nodes/haptic_guide.hpp"
 #include "nodes/node_state.hpp"
 #include "nodes/properties.hpp"
 #include "nodes/touched_bodies.hpp"
@@ -75,6 +76,8 @@ public:
     void clear_state();
     void end_contact(std::uint64_t node) { touched_.end(*this, node); }
     bool is_kept_out() const { return has(tool_absent); }
+    bool has_guide() const { return guide_.is_valid(); }
+    bool is_field_limited() const { return has(touch_field_limited); }
     void clear_force();
 
 protected:
@@ -100,6 +103,7 @@ private:
     Vec3 grasp_rotation_{0.0};  // Euler's angles as Godot turns them (unit: radians)
     bool enabled_ = true;
     bool show_tool_ = true;
+    godot::Ref<HapticGuide> guide_;
 
     std::shared_ptr<Sampling> sampling_;  // null: not begun
     ToolState state_;

@@ -10,7 +10,6 @@
 #include "nodes/haptic_world.hpp"
 #include "nodes/messages.hpp"
 #include "nodes/proxy_choice.hpp"
-#include "nodes/proxy_pointer.hpp"
 #include "nodes/roll.hpp"
 #include "nodes/scene_warnings.hpp"
 #include "nodes/tree_walk.hpp"
@@ -39,12 +38,12 @@ constexpr double pulse_seconds = 0.1;
 HapticVibrationSound::HapticVibrationSound()
     : ring_(std::make_shared<TickRing>(ring_capacity)), feedback_(static_cast<double>(sound_rate)) {}
 
-const ProxyPointer* HapticVibrationSound::proxy_node() const {
-    return chosen_proxy(*this, proxy_);
+const Node3D* HapticVibrationSound::hand_node() const {
+    return chosen_hand(*this, proxy_);
 }
 
 String HapticVibrationSound::problem() const {
-    return problem_of_proxy(*this, proxy_);
+    return problem_of_hand(*this, proxy_);
 }
 
 HapticVibrationSound::State HapticVibrationSound::get_state() const {
@@ -116,8 +115,8 @@ void HapticVibrationSound::push_sound() {
         add_child(player_, false, INTERNAL_MODE_BACK);
         player_->play();
     }
-    if (const ProxyPointer* proxy = proxy_node()) {
-        player_->set_global_position(proxy->get_global_position());
+    if (const Node3D* hand = hand_node()) {
+        player_->set_global_position(hand->get_global_position());
     }
     player_->set_volume_db(static_cast<float>(volume_db_));
     const Ref<AudioStreamPlayback> playing = player_->get_stream_playback();

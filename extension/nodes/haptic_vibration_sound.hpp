@@ -12,8 +12,6 @@
 
 namespace tactus {
 
-class ProxyPointer;
-
 // What a hand without motors is given instead of a force: vibration and sound of what its proxy touches. The
 // loop puts every tick into a ring; each frame what is there drives a motor and a loudspeaker.
 class HapticVibrationSound : public godot::Node3D {
@@ -38,7 +36,7 @@ public:
     // The loop may still be writing into it when the node has left.
     const std::shared_ptr<TickRing>& ring() const { return ring_; }
     // The one that 'proxy' names; where that is empty, the one above, or the first of its world.
-    const ProxyPointer* proxy_node() const;
+    const godot::Node3D* hand_node() const;
     godot::String problem() const;  // empty where there is none
 
 protected:

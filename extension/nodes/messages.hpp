@@ -77,8 +77,11 @@ inline godot::String wrong_path(const char* property, const godot::NodePath& pat
 // Says each text once; an empty one says nothing.
 class Complaints {
 public:
+    // Nothing is said for as long as that holds; what goes on being wrong is said afterwards.
+    void mute(bool is_muted) { is_muted_ = is_muted; }
+
     void say(const godot::Node& node, const godot::String& text) {
-        if (text.is_empty()) {
+        if (text.is_empty() || is_muted_) {
             return;
         }
         const godot::String whole = name_of(node) + ": " + text;
@@ -91,6 +94,7 @@ public:
 
 private:
     std::unordered_set<std::string> said_;
+    bool is_muted_ = false;
 };
 
 }  // namespace tactus

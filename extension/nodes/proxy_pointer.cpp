@@ -118,7 +118,9 @@ ProxyDescription ProxyPointer::description(SessionHandle device) const {
     description.settings.mask = mask_;
     description.force_law = force_law_;
     description.finger = finger_;
-    description.guide = guide_.is_valid() ? guide_->guide() : HandGuide{};
+    if (guide_.is_valid()) {
+        description.aids.add(guide_->guide(Transform3D()));
+    }
     description.enabled = enabled_;
     return description;
 }

@@ -45,6 +45,7 @@ public:
     }
     bool is_depenetrating() const { return has(proxy_letting_out); }
     bool is_pinched() const { return has(proxy_squeezed); }
+    bool has_guide() const { return guide_.is_valid(); }
     bool is_field_limited() const { return has(touch_field_limited); }
     godot::BitField<Status> get_status() const { return static_cast<Status>(state_.status); }
     double get_residual() const { return state_.residual; }

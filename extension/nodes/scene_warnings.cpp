@@ -23,6 +23,7 @@
 #include "nodes/haptic_world.hpp"
 #include "nodes/messages.hpp"
 #include "nodes/mmt_link.hpp"
+#include "nodes/proxy_pointer.hpp"
 #include "nodes/tree_walk.hpp"
 
 namespace tactus {
@@ -143,12 +144,15 @@ bool has_world(const Node& scene) {
 }
 
 // A camera and a far side bring bodies while the scene runs; a robot has a real place in their stead, and a
-// script's force is felt without any.
+// script's force and a guide are felt without any.
 bool needs_no_bodies(const Node& node) {
     if (const auto* link = Object::cast_to<MMTLink>(&node)) {
         return link->is_networked() && (link->is_operator() || link->has_robots());
     }
-    if (Object::cast_to<HapticEffect>(&node) != nullptr) {
+    const auto* const pointer = Object::cast_to<ProxyPointer>(&node);
+    const auto* const tool = Object::cast_to<HapticTool>(&node);
+    if (Object::cast_to<HapticEffect>(&node) != nullptr || (pointer != nullptr && pointer->has_guide()) ||
+        (tool != nullptr && tool->has_guide())) {
         return true;
     }
     const auto* sensor = Object::cast_to<HapticDepthSensor>(&node);
@@ -247,6 +251,22 @@ SceneReading read_scene(const HapticWorld& world, const Vec3& hand, double radiu
         }
     });
     return scene;
+}
+
+String problem_of_tool_surfaces(const HapticWorld& world, std::uint32_t mask) {
+    std::string unfelt;
+    const Node* const found = find_below(world, [&](const Node& node) {
+        const auto* body = is_solid_body(&node) ? Object::cast_to<CollisionObject3D>(&node) : nullptr;
+        if (body == nullptr || (body->get_collision_layer() & mask) == 0) {
+            return false;
+        }
+        const auto* material = Object::cast_to<HapticMaterial>(material_of(*body).ptr());
+        unfelt = material != nullptr ? material->unfelt_by_tools() : std::string();
+        return !unfelt.empty();
+    });
+    return found == nullptr ? String()
+                            : "a tool does not feel " + to_godot(unfelt) + " of the material of '" +
+                                  String(found->get_name()) + "': use a ProxyPointer, or set them to nothing";
 }
 
 String problem_of_emptiness(const HapticWorld& world) {

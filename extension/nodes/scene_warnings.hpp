@@ -1,6 +1,7 @@
 // What every scene needs, and warnings in the editor that keep up with what they say. Main thread only.
 #pragma once
 
+#include <cstdint>
 #include <godot_cpp/classes/node.hpp>
 #include <godot_cpp/variant/string.hpp>
 #include <string>
@@ -26,6 +27,10 @@ godot::String problem_of_emptiness(const HapticWorld& world);
 // its node.
 std::vector<std::string> problems_across(const HapticWorld& world);
 godot::String problem_of_outside(const HapticWorld& world);
+
+// Of a body in those layers, what of its material a tool does not feel, and what to do; empty where a tool
+// feels all of them.
+godot::String problem_of_tool_surfaces(const HapticWorld& world, std::uint32_t mask);
 
 // The bodies below a world as they stand, whether it runs or not.
 struct SceneReading {

@@ -48,6 +48,7 @@ public:
             contact["collider"] = contact["body"] = godot::ObjectDB::get_instance(ids_[i]);
             contact["position"] = contact["point"] = to_godot(state.points[i]);
             contact["normal"] = to_godot(state.normals[i]);
+            contact["force"] = to_godot(state.forces[i]);
             contacts.push_back(contact);
         }
         return contacts;

@@ -8,6 +8,7 @@
 #include "core/haptics/measured_field.hpp"
 #include "core/haptics/touch_values.hpp"
 #include "nodes/conversions.hpp"
+#include "nodes/haptic_device.hpp"
 #include "nodes/haptic_effect.hpp"
 #include "nodes/haptic_recorder.hpp"
 #include "nodes/haptic_vibration_sound.hpp"
@@ -104,7 +105,10 @@ void WorldRun::synchronise(double seconds) {
     if (model_ == nullptr) {
         synchronise_bodies(seconds);
     }
+    // A script that has added the world may still be adding the devices that its hands lack.
+    complaints_.mute(std::exchange(is_starting_, false));
     hands_->synchronise(session(), complaints_, !loop().is_real_time());
+    complaints_.mute(false);
     look_at_scene();
     synchronise_recorders();
     for (HapticVibrationSound* feedback : Roll<HapticVibrationSound>::all()) {
@@ -250,7 +254,7 @@ void WorldRun::synchronise_recorders() {
 template <class NodeType>
 void WorldRun::give_ticks(const NodeType& node, const std::shared_ptr<TickRing>& ring, SessionHandle body) {
     complaints_.say(node, node.problem());
-    const SessionHandle proxy = hands_->handle_of(node.proxy_node());
+    const SessionHandle proxy = hands_->handle_of(node.hand_node());
     if (proxy != no_handle &&
         !running_.listeners().listen(session(), node.get_instance_id(), ring, proxy, body)) {
         complaints_.say(node, too_many_recordings);
@@ -325,6 +329,19 @@ void WorldRun::show_bodies(const SessionSnapshot& snapshot) {
     }
 }
 
+// Of a device position; nothing where the hand is not in the session yet.
+std::optional<HandMotion> WorldRun::motion_of(SessionHandle handle, const Node3D* hand) {
+    const SessionSnapshot& snapshot = session().snapshot();
+    if (const ProxyState* const state = tactus::state_of(snapshot.proxies, snapshot.proxy_count, handle)) {
+        return HandMotion{state->hand, state->hand_velocity};
+    }
+    const auto* const tool = Object::cast_to<HapticTool>(hand);
+    const HapticDevice* const device = tool != nullptr && handle != no_handle ? tool->device_node() : nullptr;
+    return device != nullptr ? std::optional(HandMotion{from_godot(device->get_hand_position()),
+                                                        from_godot(device->get_hand_velocity())})
+                             : std::nullopt;
+}
+
 // Where a script may free any of them, and the world.
 void WorldRun::ask_effects() {
     if (Roll<HapticEffect>::all().empty() || is_over()) {
@@ -350,12 +367,11 @@ void WorldRun::ask_effects() {
             continue;
         }
         complaints_.say(*effect, effect->problem());
-        const SessionSnapshot& snapshot = session().snapshot();
-        const SessionHandle proxy = hands_->handle_of(effect->proxy_node());
-        const ProxyState* const state = tactus::state_of(snapshot.proxies, snapshot.proxy_count, proxy);
-        if (state != nullptr && effect->begin_frame()) {
-            Hand& hand = hands[proxy];
-            hand.motion = {state->hand, state->hand_velocity};
+        const SessionHandle handle = hands_->handle_of(effect->hand_node());
+        const std::optional<HandMotion> motion = motion_of(handle, effect->hand_node());
+        if (motion && effect->begin_frame()) {
+            Hand& hand = hands[handle];
+            hand.motion = *motion;
             hand.effects.push_back(id);
         }
     }

@@ -99,6 +99,7 @@ private:
     void start_model(const MMTLink& link);
     void synchronise_links();
     void show_bodies(const SessionSnapshot& snapshot);
+    std::optional<HandMotion> motion_of(SessionHandle handle, const godot::Node3D* hand);
     std::optional<FieldMoment> ask_effects(const std::vector<std::uint64_t>& effects, const HandMotion& hand,
                                            double time, const FieldMoment& before);
 
@@ -111,6 +112,7 @@ private:
     bool is_model_compared_ = false;     // since then
     bool is_busy_ = false;
     const bool engine_moves_;        // see RunSettings
+    bool is_starting_ = true;        // nothing has been looked at yet
     bool is_fresh_ = false;          // the snapshot is shown in the next frame
     std::vector<Vec3> hand_places_;  // of this frame; keeps its memory
 

@@ -26,6 +26,19 @@ enum class JointKind {
     SixAxes,  // linear and angular, each axis on its own
 };
 
+// What leads the one free axis of a hinge (radians, newton meters) or a slider (meters, newtons): a spring to
+// `rest`, or to the nearest of rest + n pitch, and a damper.
+struct JointDrive {
+    double stiffness = 0.0;  // of the spring, >= 0; 0: there is none
+    double damping = 0.0;    // >= 0
+    double rest = 0.0;       // as ranges count
+    double pitch = 0.0;      // from one detent to the next; 0: there is one place of rest
+    double strength = 0.0;   // that spring and damper have together at most; 0: without a limit
+    double reach = 0.0;      // the spring acts no farther from its place, as a latch; 0: everywhere
+
+    bool operator==(const JointDrive&) const = default;
+};
+
 struct JointDescription {
     JointKind kind = JointKind::Pin;
     Pose frame;  // in the world, where the bodies are now
@@ -43,6 +56,7 @@ struct JointDescription {
     double motor_torque = 0.0;
 
     bool bodies_collide = false;  // with each other
+    JointDrive drive{};           // of a hinge without a motor, or a slider
 };
 
 // Names a joint of one world for as long as it is in it.

@@ -135,6 +135,15 @@ std::string wrong_in(const JointDescription& joint) {
     if (!std::isfinite(joint.motor_speed) ||
         !(joint.motor_torque >= 0.0 && std::isfinite(joint.motor_torque)))
         return "the joint's motor needs a finite speed and a torque that is not negative";
+    const JointDrive& drive = joint.drive;
+    for (const double value : {drive.stiffness, drive.damping, drive.pitch, drive.strength, drive.reach})
+        if (!(value >= 0.0 && value <= limits::stiffest))
+            return "a value of the joint's drive is negative, above 10^9 or not a number: set it anew";
+    if (!(std::abs(drive.rest) <= limits::farthest))
+        return "the joint's drive rests nowhere: set 'rest' to a finite number";
+    const bool is_driven = drive.stiffness > 0.0 || drive.damping > 0.0;
+    if (is_driven && joint.kind != JointKind::Hinge && joint.kind != JointKind::Slider)
+        return "only a hinge or a slider that does not turn can have a drive: use one of them";
     return {};
 }
 
@@ -152,6 +161,7 @@ JointId JointTable::add(const JointDescription& description, JPH::Body& first, J
     vacant->second = second.GetID().GetIndexAndSequenceNumber();
     vacant->bodies_collide = description.bodies_collide;
     vacant->holds_point = holds_point(description);
+    vacant->axis = JointAxis(description, *vacant->constraint);
     join_group(first);
     join_group(second);
     system_.AddConstraint(vacant->constraint);
@@ -172,6 +182,7 @@ void JointTable::remove(Joint& joint) {
     system_.GetBodyInterfaceNoLock().ActivateConstraint(joint.constraint);
     system_.RemoveConstraint(joint.constraint);
     joint.constraint = nullptr;
+    joint.axis = {};
     --count_;
     joint.generation = (joint.generation + 1) & (index_mask >> 1);
 }
@@ -198,6 +209,8 @@ void JointTable::begin_step(JointSwing& swing) const {
     swing.clear();
     if (count_ == 0)
         return;
+    for (const Joint& joint : joints_)
+        joint.axis.drive();
     for (const Joint& joint : joints_)
         if (joint.constraint != nullptr && joint.holds_point)
             swing.begin_step(*joint.constraint->GetBody1(), *joint.constraint->GetBody2(),

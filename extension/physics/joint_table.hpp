@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "physics/joint.hpp"
+#include "physics/joint_axis.hpp"
 #include "physics/joint_swing.hpp"
 #include "physics/jolt.hpp"
 
@@ -31,7 +32,7 @@ public:
     // The centre of mass of a body moved within it.
     void shape_changed(const JPH::Body& body, JPH::Vec3Arg way);
 
-    // Of all joints that hold a point, before a step.
+    // Before a step: drives all joints, and notes the points that some hold.
     void begin_step(JointSwing& swing) const;
 
     std::size_t count() const { return count_; }
@@ -46,6 +47,7 @@ private:
         JPH::CollisionGroup::GroupID second = 0;
         bool bodies_collide = true;
         bool holds_point = false;  // of both bodies, the same one
+        JointAxis axis;
         std::uint32_t generation = 0;
 
         bool holds(const JPH::Body& body) const {

@@ -15,6 +15,7 @@ bool CarriedPointer::carry(SessionLoop& loop, const SessionLoop::ProxySlot& pres
         slot_.proxy->recall(pressing.proxy->memory());
         slot_.force = pressing.force;
         slot_.effects = pressing.effects;
+        slot_.aids = pressing.aids;
         slot_.state = pressing.state;
     }
     Proxy& proxy = *slot_.proxy;

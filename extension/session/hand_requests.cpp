@@ -1,4 +1,5 @@
 // What the owner of a session asks of its devices, proxies and tools.
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <memory>
@@ -69,17 +70,19 @@ AddResult Session::add_proxy(const ProxyDescription& description) {
         return std::make_unique<Proxy>(impl_->settings.max_parts, description.settings);
     };
     impl_->note(call::AddProxy{handle, description});
+    impl_->keep_ways(description.aids);
     impl_->send(command::AddProxy{handle, make(), impl_->has_twin ? make() : nullptr, description});
     return {handle, {}};
 }
 
 void Session::set_proxy(SessionHandle proxy, const ProxyDescription& description) {
     if (impl_->proxies.in_use(proxy) && check_proxy(description).empty()) {
+        impl_->keep_ways(description.aids);
         impl_->send(command::SetProxy{proxy, description});
     }
 }
 
-void Session::set_hand_field(SessionHandle proxy, const FieldMoment& moment) {
+void Session::set_hand_field(SessionHandle hand, const FieldMoment& moment) {
     constexpr double strongest = 1e6;  // (unit: newtons)
     constexpr double steepest = 1e12;  // (units: newtons per meter, newton seconds per meter)
     const auto is_within = [](const Vec3& v, double most) { return glm::length(v) <= most; };
@@ -87,10 +90,16 @@ void Session::set_hand_field(SessionHandle proxy, const FieldMoment& moment) {
         return is_within(slope[0], steepest) && is_within(slope[1], steepest) &&
                is_within(slope[2], steepest);
     };
-    if (impl_->proxies.in_use(proxy) && limits::is_place(moment.place) &&
+    if (impl_->is_hand(hand) && limits::is_place(moment.place) &&
         is_within(moment.velocity, limits::fastest) && is_within(moment.force, strongest) &&
         is_slope(moment.by_place) && is_slope(moment.by_velocity) && is_line(moment.line, strongest)) {
-        impl_->send(command::SetField{proxy, moment});
+        impl_->send(command::SetField{hand, moment});
+    }
+}
+
+void Session::set_guide_frames(SessionHandle hand, const GuideFrames& frames) {
+    if (impl_->is_hand(hand) && std::ranges::all_of(frames, limits::is_pose)) {
+        impl_->send(command::SetGuideFrames{hand, frames});
     }
 }
 
@@ -112,6 +121,7 @@ AddResult Session::add_tool(std::shared_ptr<const ToolShape> shape, const ToolUs
         return {no_handle, "a world takes at most " + std::to_string(max_tools) + " tools: remove one"};
     }
     impl_->note(call::AddTool{handle, shape, use});
+    impl_->keep_ways(use.aids);
     const auto make = [&] {
         auto slot = std::make_unique<ToolSlot>(shape, impl_->settings.max_parts, use);
         for (SessionHandle other = 0; other < max_tools; ++other) {
@@ -135,6 +145,7 @@ AddResult Session::add_tool(std::shared_ptr<const ToolShape> shape, const ToolUs
 
 void Session::set_tool(SessionHandle tool, const ToolUse& use) {
     if (impl_->tools.in_use(tool) && check_tool(use).empty()) {
+        impl_->keep_ways(use.aids);
         impl_->send(command::SetTool{tool, use});
     }
 }

@@ -96,15 +96,17 @@ struct RowsWritten {
 
 }  // namespace call
 
-using InputCall = std::variant<
-    call::AddBody, command::RemoveBody, call::DeformBody, command::TeleportBody, command::MoveBody,
-    command::SetBodyVelocity, command::SetTouchMaterial, command::SetBodySurface, command::SetBodyLayers,
-    command::SetBodyMotion, command::SetBodyGravityScale, command::SetBodyDamping, command::SetBodyPush,
-    command::SeeBody, command::PushBody, command::AddJoint, command::RemoveJoint, command::SetGravity,
-    call::AddDevice, command::SetWorkspace, command::RemoveDevice, call::AddProxy, command::SetProxy,
-    command::SetField, command::RemoveProxy, call::AddTool, command::SetTool, command::RemoveTool,
-    call::Record, call::EndRecording, call::Attach, call::Announce, call::Epoch, call::WriteRows,
-    call::RowsWritten, call::NarrowTouch, command::ShiftBody, command::LeadBody, command::CorrectBody>;
+using InputCall =
+    std::variant<call::AddBody, command::RemoveBody, call::DeformBody, command::TeleportBody,
+                 command::MoveBody, command::SetBodyVelocity, command::SetTouchMaterial,
+                 command::SetBodySurface, command::SetBodyLayers, command::SetBodyMotion,
+                 command::SetBodyGravityScale, command::SetBodyDamping, command::SetBodyPush,
+                 command::SeeBody, command::PushBody, command::AddJoint, command::RemoveJoint,
+                 command::SetGravity, call::AddDevice, command::SetWorkspace, command::RemoveDevice,
+                 call::AddProxy, command::SetProxy, command::SetField, command::RemoveProxy, call::AddTool,
+                 command::SetTool, command::RemoveTool, call::Record, call::EndRecording, call::Attach,
+                 call::Announce, call::Epoch, call::WriteRows, call::RowsWritten, call::NarrowTouch,
+                 command::ShiftBody, command::LeadBody, command::CorrectBody, command::SetGuideFrames>;
 
 // By the loop. `link`: the number of the end.
 namespace heard {
@@ -214,7 +216,9 @@ inline constexpr int members<PlacedShape> = 2;
 template <>
 inline constexpr int members<TouchImage> = 3;
 template <>
-inline constexpr int members<TouchImages> = 2;
+inline constexpr int members<ForceCurve> = 3;
+template <>
+inline constexpr int members<TouchImages> = 3;
 template <>
 inline constexpr int members<SurfaceFeel> = 2;
 template <>
@@ -222,7 +226,7 @@ inline constexpr int members<TouchDetail> = 2;
 template <>
 inline constexpr int members<SurfaceMap> = 2;
 template <>
-inline constexpr int members<TouchMaterial> = 22;
+inline constexpr int members<TouchMaterial> = 23;
 template <>
 inline constexpr int members<SurfaceMaterial> = 4;
 template <>
@@ -232,7 +236,9 @@ inline constexpr int members<BodyDescription> = 18;
 template <>
 inline constexpr int members<JointRange> = 2;
 template <>
-inline constexpr int members<JointDescription> = 8;
+inline constexpr int members<JointDrive> = 6;
+template <>
+inline constexpr int members<JointDescription> = 9;
 template <>
 inline constexpr int members<PhysicsSettings> = 11;
 template <>
@@ -242,13 +248,19 @@ inline constexpr int members<ProxySettings> = 4;
 template <>
 inline constexpr int members<SoftFinger> = 3;
 template <>
-inline constexpr int members<HandGuide> = 5;
+inline constexpr int members<GuideWay::Block> = 2;
+template <>
+inline constexpr int members<GuideWay> = 2;
+template <>
+inline constexpr int members<HandGuide> = 8;
+template <>
+inline constexpr int members<HandAids> = 3;
 template <>
 inline constexpr int members<HandEffect> = 11;
 template <>
 inline constexpr int members<HandEffects> = 2;
 template <>
-inline constexpr int members<ProxyDescription> = 7;
+inline constexpr int members<ProxyDescription> = 6;
 template <>
 inline constexpr int members<FieldLine> = 5;
 template <>
@@ -256,7 +268,7 @@ inline constexpr int members<FieldMoment> = 6;
 template <>
 inline constexpr int members<ToolSettings> = 8;
 template <>
-inline constexpr int members<ToolUse> = 4;
+inline constexpr int members<ToolUse> = 5;
 template <>
 inline constexpr int members<ToolSphere> = 2;
 template <>
@@ -374,6 +386,8 @@ inline constexpr int members<command::SetProxy> = 2;
 template <>
 inline constexpr int members<command::SetField> = 2;
 template <>
+inline constexpr int members<command::SetGuideFrames> = 2;
+template <>
 inline constexpr int members<command::RemoveProxy> = 1;
 template <>
 inline constexpr int members<command::SetTool> = 2;
@@ -455,6 +469,10 @@ struct LastOf<ForceLaw> {
 template <>
 struct LastOf<HandGuide::Form> {
     static constexpr HandGuide::Form value = HandGuide::Form::way;
+};
+template <>
+struct LastOf<HandGuide::Mode> {
+    static constexpr HandGuide::Mode value = HandGuide::Mode::forbid;
 };
 template <>
 struct LastOf<HandEffect::Form> {

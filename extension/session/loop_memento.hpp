@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/haptics/hand_aids.hpp"
 #include "core/haptics/surface_effects.hpp"
 #include "core/proxy/proxy.hpp"
 #include "core/tool/tool_proxy.hpp"
@@ -26,6 +27,7 @@ struct LoopMemento {
         EffectMemory effects;
         TorsionList torsion;
         Vec3 force{0.0};
+        AidMemory aids{};
     };
 
     std::size_t place_count = 0;

@@ -83,12 +83,14 @@ SessionLoop::SceneForce OperatorSide::force_uncorrected(SessionLoop& loop, Point
     const auto try_out = [&](SessionLoop::ProxySlot& tried) {
         const ProxyMemory memory = tried.proxy->memory();
         const EffectMemory effects = tried.effects;
+        const AidMemory aids = tried.aids;
         const Vec3 before = tried.force;
         tried.force_before = before;
         loop.touch(tried, now);
         const SessionLoop::SceneForce found = tried.scene_force();
         tried.proxy->recall(memory);
         tried.effects = effects;
+        tried.aids = aids;
         tried.force = before;
         return found;
     };

@@ -72,6 +72,9 @@ inline void ask(Session& session, const command::SetProxy& c) {
 inline void ask(Session& session, const command::SetField& c) {
     session.set_hand_field(c.handle, c.moment);
 }
+inline void ask(Session& session, const command::SetGuideFrames& c) {
+    session.set_guide_frames(c.handle, c.frames);
+}
 inline void ask(Session& session, const command::RemoveProxy& c) {
     session.remove_proxy(c.handle);
 }

@@ -14,7 +14,7 @@ std::string check_material(const TouchMaterial& m) {
     for (const double value :
          {m.stiffness, m.damping, m.static_friction, m.dynamic_friction, m.texture_depth, m.magnet_force,
           m.viscosity, m.stick_slip_stiffness, m.stick_slip_force, m.vibration_force, m.vibration_frequency,
-          m.pop_through_force, m.impact_strength, m.impact_frequency, m.stribeck_speed}) {
+          m.pop_through_force, m.impact_strength, m.shaft_friction, m.impact_frequency, m.stribeck_speed}) {
         if (!(value >= 0.0 && value <= limits::stiffest)) {
             return "a value of the touch material is negative, above 10^9 or not a number: set all of them "
                    "to 0 or "
@@ -45,7 +45,7 @@ std::string check_images(const TouchImages& images) {
                    "image again";
         }
     }
-    return {};
+    return images.curve ? check_curve(*images.curve) : std::string();
 }
 
 }  // namespace
@@ -76,21 +76,6 @@ std::string check_workspace(const Workspace& w) {
                  "torque or no force: reset its transform and these";
 }
 
-namespace {
-
-std::string check_leading(const ProxyDescription& d) {
-    std::string error = check_guide(d.guide);
-    if (d.effects.count > HandEffects::most) {
-        return "a hand has more than eight effects: take some away";
-    }
-    for (std::size_t i = 0; i < d.effects.count && error.empty(); ++i) {
-        error = check_effect(d.effects.items[i]);
-    }
-    return error;
-}
-
-}  // namespace
-
 std::string check_proxy(const ProxyDescription& d) {
     if (!is_proxy_radius(d.settings.radius)) {
         return "the proxy's radius is not a positive length: set it above 0 m";
@@ -98,7 +83,7 @@ std::string check_proxy(const ProxyDescription& d) {
     return d.finger.modulus >= 0.0 && std::isfinite(d.finger.modulus) && d.finger.radius > 0.0 &&
                    d.finger.radius <= limits::longest_arm && d.finger.stiffness >= 0.0 &&
                    d.finger.stiffness <= limits::stiffest
-               ? check_leading(d)
+               ? check_aids(d.aids)
                : "the finger's modulus or stiffness is below 0 or its radius is no positive length: set them "
                  "anew";
 }
@@ -113,7 +98,7 @@ std::string check_tool(const ToolUse& use) {
             return "the tool's friction is below 0 or not a number: set static and dynamic friction anew";
         }
     }
-    return limits::is_pose(use.grasp) ? "" : "the tool's grasp is no place: reset it";
+    return limits::is_pose(use.grasp) ? check_aids(use.aids) : "the tool's grasp is no place: reset it";
 }
 
 bool is_proxy_radius(double radius) {

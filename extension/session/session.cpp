@@ -130,6 +130,19 @@ void Session::Impl::carry_out(Command& command) {
     commands.pop();
 }
 
+void Session::Impl::keep_ways(const HandAids& aids) {
+    for (std::size_t i = 0; i < aids.guide_count; ++i) {
+        if (const auto& way = aids.guides[i].way; way && std::ranges::find(ways, way) == ways.end()) {
+            ways.push_back(way);
+        }
+    }
+}
+
+// Where nothing else has it, nothing else can come to have it.
+void Session::Impl::forget_ways() {
+    std::erase_if(ways, [](const auto& way) { return way.use_count() == 1; });
+}
+
 Session::Impl::Taken Session::Impl::take_commands(std::uint32_t most) {
     Taken taken;
     std::uint32_t share = 0;
@@ -154,7 +167,7 @@ const SessionSettings& Session::settings() const {
     return impl_->settings;
 }
 
-bool Session::record(RecorderRing<SessionRecord>& ring, SessionHandle proxy, SessionHandle object) {
+bool Session::record(RecorderRing<SessionRecord>& ring, SessionHandle hand, SessionHandle object) {
     if (std::ranges::find(impl_->recorded, &ring) == impl_->recorded.end()) {
         if (impl_->recorded.size() == max_recordings) {
             return false;
@@ -162,9 +175,9 @@ bool Session::record(RecorderRing<SessionRecord>& ring, SessionHandle proxy, Ses
         impl_->recorded.push_back(&ring);
     }
     if (impl_->recorder) {
-        impl_->note(call::Record{impl_->recorder->number_of(&ring), proxy, object});
+        impl_->note(call::Record{impl_->recorder->number_of(&ring), hand, object});
     }
-    impl_->send(command::Record{&ring, proxy, object});
+    impl_->send(command::Record{&ring, hand, object});
     return true;
 }
 
@@ -201,6 +214,7 @@ bool Session::collect() {
         remains = {};
     }
     impl_->send_backlog();
+    impl_->forget_ways();
     return !impl_->backlog.empty() || impl_->commands.size() > 0;
 }
 

@@ -150,19 +150,22 @@ public:
     AddResult add_proxy(const ProxyDescription& description);
     void set_proxy(SessionHandle proxy, const ProxyDescription& description);
     void remove_proxy(SessionHandle proxy);
-    // A force on the proxy's hand, as its owner has just computed it; to be said again and again
-    // (hand_field.hpp). A number that is none, or a force beyond 10^6 N, is not taken.
-    void set_hand_field(SessionHandle proxy, const FieldMoment& moment);
+    // A force on the hand, as its owner has just computed it; to be said again and again (hand_field.hpp). A
+    // number that is none, or a force beyond 10^6 N, is not taken. `hand`: a proxy, or hand_of_tool().
+    void set_hand_field(SessionHandle hand, const FieldMoment& moment);
+    // The hand's guides are elsewhere, and go there evenly (FollowedFrame). `hand`: as above.
+    using GuideFrames = std::array<Pose, HandAids::most_guides>;
+    void set_guide_frames(SessionHandle hand, const GuideFrames& frames);
 
     // The shape is made by make_tool_shape.
     AddResult add_tool(std::shared_ptr<const ToolShape> shape, const ToolUse& use);
     void set_tool(SessionHandle tool, const ToolUse& use);
     void remove_tool(SessionHandle tool);
 
-    // Records every tick of a proxy, with the place of `object` (or no_handle), into a ring that the owner
-    // drains; again for the same ring: of another proxy or object. The ring must live until its end has been
-    // carried out. False where as many are recorded as can be (max_recordings).
-    bool record(RecorderRing<SessionRecord>& ring, SessionHandle proxy, SessionHandle object);
+    // Records every tick of a hand (a proxy, or hand_of_tool()), with the place of `object` (or no_handle),
+    // into a ring that the owner drains; again for the same ring: of another hand or object. The ring must
+    // live until its end has been carried out. False where as many are recorded as can be (max_recordings).
+    bool record(RecorderRing<SessionRecord>& ring, SessionHandle hand, SessionHandle object);
     void end_recording(RecorderRing<SessionRecord>& ring);
 
     // A side of a teleoperation (operator_side.hpp, teleoperator_side.hpp), in place of the one before; null:

@@ -54,6 +54,11 @@ void SessionLoop::note_hand_change(SessionHandle device) {
     for (ProxySlot& slot : proxies_) {
         slot.changed = slot.changed || slot.description.device == device;
     }
+    for (const std::unique_ptr<ToolSlot>& slot : tools_) {
+        if (slot && slot->use.device == device) {
+            slot->changed = true;
+        }
+    }
 }
 
 SessionLoop::Body* SessionLoop::body(SessionHandle handle) {
@@ -478,7 +483,23 @@ bool SessionLoop::carry_out(command::SetProxy& c, Retired&) {
 }
 
 bool SessionLoop::carry_out(command::SetField& c, Retired&) {
-    proxies_[c.handle].field.set(c.moment);
+    if (c.handle < max_proxies) {
+        proxies_[c.handle].field.set(c.moment);
+    } else if (ToolSlot* const slot = tools_[c.handle - max_proxies].get()) {
+        slot->field.set(c.moment);
+    }
+    return false;
+}
+
+// They are moved evenly from where they were, so that no force jumps.
+bool SessionLoop::carry_out(command::SetGuideFrames& c, Retired&) {
+    ToolSlot* const tool = c.handle >= max_proxies ? tools_[c.handle - max_proxies].get() : nullptr;
+    HandAids* const aids = c.handle < max_proxies ? &proxies_[c.handle].description.aids
+                           : tool != nullptr      ? &tool->use.aids
+                                                  : nullptr;
+    for (std::size_t i = 0; aids != nullptr && i < c.frames.size(); ++i) {
+        aids->guides[i].frame = c.frames[i];
+    }
     return false;
 }
 

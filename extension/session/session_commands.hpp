@@ -147,8 +147,12 @@ struct SetProxy {
     ProxyDescription description;
 };
 struct SetField {
-    SessionHandle handle;
+    SessionHandle handle;  // of a proxy, or hand_of_tool()
     FieldMoment moment;
+};
+struct SetGuideFrames {
+    SessionHandle handle;  // of a proxy, or hand_of_tool()
+    std::array<Pose, HandAids::most_guides> frames;
 };
 struct RemoveProxy {
     SessionHandle handle;
@@ -188,7 +192,7 @@ using Command = std::variant<
     command::RemoveJoint, command::SetGravity, command::AddDevice, command::SetWorkspace,
     command::RemoveDevice, command::AddProxy, command::SetProxy, command::SetField, command::RemoveProxy,
     command::AddTool, command::SetTool, command::RemoveTool, command::Record, command::EndRecording,
-    command::Attach, command::LeadBody, command::CorrectBody>;
+    command::Attach, command::LeadBody, command::CorrectBody, command::SetGuideFrames>;
 
 // What has left the loop. Its handle may be given out again once the owner has seen this.
 struct Retired {

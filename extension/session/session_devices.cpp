@@ -79,7 +79,7 @@ void SessionLoop::read_devices(Nanoseconds now) {
             slot.hand_velocity = devices_[slot.description.device].hand_velocity;
         }
     }
-    hold_tools();
+    hold_tools(now);
 }
 
 void SessionLoop::place_hand(DeviceSlot& slot) const {
@@ -143,8 +143,8 @@ void SessionLoop::write_devices(Nanoseconds now) {
             continue;
         }
         slot.force += slot.workspace.force;
-        const Vec3 asked = slot.force;
-        const Vec3 asked_of_device = force_on_device(slot.workspace, asked);
+        slot.asked = slot.force;
+        const Vec3 asked_of_device = force_on_device(slot.workspace, slot.asked);
         const SafetySample sample = safety_sample(slot, i);
         const SafetySettings settings =
             settings_of(slot.capabilities, slot.workspace, side_ ? side_->limits() : local_touch,
@@ -153,7 +153,7 @@ void SessionLoop::write_devices(Nanoseconds now) {
         if (slot.safe.force != asked_of_device) {
             slot.force = force_in_scene(slot.workspace, slot.safe.force);
         }
-        slot.refused = asked - slot.force;
+        slot.refused = slot.asked - slot.force;
         const bool limited = slot.safe.limited != 0;
         status_ |= limited ? static_cast<TickStatus>(session_force_limited) : 0u;
         for (ProxySlot& proxy : proxies_) {
@@ -233,58 +233,15 @@ SafetySample SessionLoop::safety_sample(DeviceSlot& slot, std::size_t index) con
     return sample;
 }
 
-// A guide is no stiffer than what half of the device's damping renders safely: walls have the rest of it.
-// Over a bend of a way the place that it leads to may jump where the hand does not.
-SessionLoop::Lead SessionLoop::lead(ProxySlot& slot, const LoopLag& lag, double damping) const {
-    const HandGuide& guide = slot.description.guide;
-    Lead lead{.jumped = std::exchange(slot.changed, false)};
-    if (guide.form == HandGuide::Form::none) {
-        return lead;
-    }
-    EffectMemory& memory = slot.effects;
-    const Vec3 place = guided_place(guide, slot.hand);
-    const double way = glm::distance(slot.hand, std::exchange(memory.guided_hand, slot.hand));
-    const double led_on = glm::distance(place, std::exchange(memory.guided_to, place));
-    constexpr double rounding = 1e-6;  // (unit: meters)
-    lead.jumped = lead.jumped || led_on > 2.0 * way + rounding;
-    lead.stiffness = safe_wall(lag, 0.5 * damping, {guide.stiffness, 0.0}).stiffness;
-    lead.force = guide_force(slot.hand - place, guide.range, lead.stiffness);
-    return lead;
-}
-
-// Like a guide, a field has half of what is left, and walls have the rest: a script's and the effects, each
-// as much of it as it is steep.
-SessionLoop::Field SessionLoop::field(ProxySlot& slot, const LoopLag& lag, double unled,
-                                      Nanoseconds now) const {
-    const HandEffects& effects = slot.description.effects;
-    const DeviceSlot& device = devices_[slot.description.device];
-    const HandMotion motion{slot.hand, slot.hand_velocity};
-    const Wall computed = slot.field.begin_tick(now, force_limit(slot.description.device));
-    Wall wanted = computed;
-    for (std::size_t i = 0; i < effects.count; ++i) {
-        const Wall steep = steepest(effects.items[i]);
-        wanted.stiffness += steep.stiffness;
-        wanted.damping += steep.damping;
-    }
-    const Wall bounded{std::min(wanted.stiffness, HandField::stiffest), wanted.damping};
-    Field field{.wall = safe_wall(lag, 0.5 * unled, bounded)};
-    const double stiff = wanted.stiffness > 0.0 ? field.wall.stiffness / wanted.stiffness : 1.0;
-    const double damped = wanted.damping > 0.0 ? field.wall.damping / wanted.damping : 1.0;
+// A hand of that device, for what acts on it besides touch.
+AidedHand SessionLoop::aided_hand(SessionHandle handle, const HandMotion& motion, Nanoseconds now) const {
+    const DeviceSlot& device = devices_[handle];
+    const DeviceCapabilities& can = device.capabilities;
     const double most_damping =
-        device.capabilities.feels
-            ? std::min(HandField::thickest,
-                       damping_in_scene(device.workspace, device.capabilities.max_damping))
-            : HandField::thickest;
-    const Wall safe{computed.stiffness * stiff, computed.damping * damped};
-    field.force = slot.field.force(motion, effects.count > 0 ? safe : field.wall, most_damping);
-    for (std::size_t i = 0; i < effects.count; ++i) {
-        field.force +=
-            effect_force(weakened(effects.items[i], stiff, damped), motion, now, slot.effect_memory[i]);
-    }
-    for (std::size_t i = effects.count; i < HandEffects::most; ++i) {
-        slot.effect_memory[i] = {};  // what comes next begins anew
-    }
-    return field;
+        can.feels ? std::min(HandField::thickest, damping_in_scene(device.workspace, can.max_damping))
+                  : HandField::thickest;
+    return {motion,       {seconds_, can.delay}, damping_in_scene(device.workspace, can.damping),
+            most_damping, force_limit(handle),   now};
 }
 
 // For the owner to tell: which wall was not safe.
@@ -306,7 +263,7 @@ void SessionLoop::rest() {
     TACTUS_ASSERT_HAPTIC_THREAD();
     for (DeviceSlot& slot : devices_) {
         if (slot.device) {
-            slot.force = Vec3(0.0);
+            slot.force = slot.asked = Vec3(0.0);
             slot.fading.clear();
             slot.safety.rest();
             slot.safe.torque = Vec3(0.0);

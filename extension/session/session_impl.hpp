@@ -30,6 +30,13 @@ struct Session::Impl {
     }
     void send(Command&& command);
     void send_backlog();
+    bool is_hand(SessionHandle hand) const {
+        return hand < max_proxies ? proxies.in_use(hand)
+                                  : tools.in_use(static_cast<SessionHandle>(hand - max_proxies));
+    }
+    // The loop may let go of a guide's way, which frees nothing there: the owner has it until only it has.
+    void keep_ways(const HandAids& aids);
+    void forget_ways();
     // For a twin. Not where the body was prepared, on some other thread: a side may have been attached since.
     void make_second(ReadyBody& ready) const;
     void give_back(const Retired& remains);
@@ -54,6 +61,7 @@ struct Session::Impl {
     bool hears_tools = false;  // likewise, see TeleopSide
     std::vector<RecorderRing<SessionRecord>*> recorded;
     std::deque<Command> backlog;
+    std::vector<std::shared_ptr<const GuideWay>> ways;
 
     SessionHandle next_handle = no_handle;  // see Session::use_handle
     std::optional<std::uint32_t> exactly;   // see Session::take_exactly

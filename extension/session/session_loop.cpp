@@ -89,6 +89,7 @@ TickStatus SessionLoop::tick(Nanoseconds now, TickTrace* trace, Nanoseconds late
         fade_jumps();
     }
     press_all();
+    note_events();
     {
         const TraceScope scope(trace, TickStage::write_device);
         write_devices(now);
@@ -191,6 +192,7 @@ void SessionLoop::touch_all(Nanoseconds now) {
     if (side_ && !side_->simulates()) {
         for (ProxySlot& slot : proxies_) {
             slot.parts = {};  // nothing is touched here, so nothing is pressed
+            slot.punctures.clear();
             if (!slot.present()) {
                 slot.state = {};
             }
@@ -229,7 +231,9 @@ FadingForce::Step SessionLoop::step_of(const ProxySlot& slot) const {
 bool SessionLoop::touches_other_walls(ProxySlot& slot) const {
     Stiffnesses now;
     for (const Touch& contact : slot.proxy->touching()) {
-        const double stiffness = spring_of(*feel_at(scene_, contact).material).steepest();
+        const Feel feel = feel_at(scene_, contact);
+        const double stiffness = std::max(spring_of(*feel.material).steepest(),
+                                          feel.curve() != nullptr ? feel.curve()->steepest : 0.0);
         now.least = now.most == 0.0 ? stiffness : std::min(now.least, stiffness);
         now.most = std::max(now.most, stiffness);
     }
@@ -281,6 +285,12 @@ void SessionLoop::press_all() {
     for (ProxySlot& slot : proxies_) {
         if (slot.proxy) {
             press_bodies(slot);
+            for (const ShaftForce& force : slot.punctures.forces()) {
+                const Body& pierced = bodies_[handle_of_slot_[static_cast<std::size_t>(force.body)]];
+                if (pierced.motion == Motion::Dynamic) {
+                    physics_.apply_hand_force(pierced.id, -force.on_hand, force.point);
+                }
+            }
             if (is_held(slot)) {
                 attract(slot, true);
             }
@@ -298,7 +308,8 @@ void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
     if (!is_held(slot)) {
         slot.force = slot.effects.besides = Vec3(0.0);
         slot.torsion.count = 0;
-        slot.effect_memory = {};
+        slot.aids = {};
+        slot.punctures.clear();
         slot.proxy->restart();
         slot.walls = {};
         const ProxyState before = std::exchange(slot.state, {});
@@ -318,32 +329,31 @@ void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
     const ProxyTick tick = slot.proxy->move(scene_, slot.hand, seconds_);
     HandForce& force = slot.parts;
     DeviceSlot& device = devices_[slot.description.device];
-    const double damping = damping_in_scene(device.workspace, device.capabilities.damping);
-    const LoopLag lag{seconds_, device.capabilities.delay};
-    const Lead led = lead(slot, lag, damping);
-    const double unled = damping - damping_needed(led.stiffness, lag);
     const HandMotion motion{slot.hand, slot.hand_velocity};
-    const Field field = this->field(slot, lag, unled, now);
-    const double left = unled - damping_needed(field.wall.stiffness, lag) - field.wall.damping;
+    const AidedHand hand = aided_hand(slot.description.device, motion, now);
+    const AidForce aid = aid_force(slot.description.aids, hand, slot.field, slot.aids);
+    const bool changed = std::exchange(slot.changed, false);
+    const Wall within = feel_punctures(slot, hand, aid.damping);
+    const double left = aid.damping - damping_needed(within.stiffness, hand.lag) - within.damping;
     const MassesOfContacts inverse_mass = inverse_masses(*slot.proxy);
     force = contact_force(scene_, slot.proxy->touching(), tick.slide, slot.hand_velocity, seconds_,
-                          {lag, left, slot.description.finger.stiffness, inverse_mass});
+                          {hand.lag, left, slot.description.finger.stiffness, inverse_mass});
     const Vec3 early = felt_early(force, before, inverse_mass);
     slot.pressed = force.total - early;
     note_walls(slot, device);
     break_surfaces(slot, force);
     add_surface_effects(scene_, slot.proxy->touching(), motion, now, seconds_, slot.effects, force);
-    slot.jumped = touches_other_walls(slot) || tick.jumped || led.jumped;
+    slot.jumped = touches_other_walls(slot) || tick.jumped || aid.jumped || changed;
     if (slot.description.force_law == ForceLaw::smoothed && !slot.jumped) {
         smooth(force, slot.force_before - slot.effects.besides);
     }
     const double max_change = max_pull_rate * seconds_ / device.workspace.force_scale;
-    slot.effects.besides = led.force + field.force - early +
+    slot.effects.besides = aid.force + slot.punctures.total() - early +
                            gradual_pull(attract(slot, false), max_change, magnet_changes_, slot.effects);
     slot.force = force.total + slot.effects.besides;
     slot.step = step_of(slot);
-    slot.step.stiffness += led.stiffness + field.wall.stiffness;
-    slot.step.damping += field.wall.damping;
+    slot.step.stiffness += aid.wall.stiffness + within.stiffness;
+    slot.step.damping += aid.wall.damping + within.damping;
     slot.sliding = (tick.status & proxy_sliding) != 0;
     hold_against_turning(slot);
     status_ |= tick.status & proxy_unfinished ? static_cast<TickStatus>(session_proxy_unfinished) : 0u;
@@ -371,17 +381,6 @@ Vec3 SessionLoop::attract(const ProxySlot& slot, bool press) {
         }
     }
     return pull;
-}
-
-// A surface pressed harder than it bears lets the proxy through from the next tick on.
-void SessionLoop::break_surfaces(ProxySlot& slot, const HandForce& force) {
-    for (int i = 0; i < force.contact_count; ++i) {
-        const ContactForce& part = force.contacts[i];
-        const double bears = feel_at(scene_, part.body, part.feature).material->pop_through_force;
-        if (bears > 0.0 && glm::length(part.on_hand) > bears) {
-            slot.proxy->pass_through(part.body);
-        }
-    }
 }
 
 // What each contact of a soft finger holds the body by against turning. Over a link only places are told: a
@@ -512,6 +511,7 @@ void SessionLoop::describe(ProxySlot& slot, const ProxyTick& tick) {
         state.bodies[i] = handle_of_slot_[static_cast<std::size_t>(contact.body)];
         state.points[i] = contact.point;
         state.normals[i] = contact.normal;
+        state.forces[i] = slot.parts.contacts[i].on_hand;
     }
 }
 
@@ -574,6 +574,7 @@ void SessionLoop::publish(Nanoseconds now) {
         if (proxies_[i].proxy) {
             proxies_[i].state.handle = static_cast<SessionHandle>(i);
             out.proxies[out.proxy_count++] = proxies_[i].state;
+            out.touch_events[i] = proxies_[i].events;
         }
     }
     out.tool_count = 0;
@@ -581,6 +582,7 @@ void SessionLoop::publish(Nanoseconds now) {
         if (tools_[i]) {
             tools_[i]->state.handle = static_cast<SessionHandle>(i);
             out.tools[out.tool_count++] = tools_[i]->state;
+            out.touch_events[hand_of_tool(static_cast<SessionHandle>(i))] = tools_[i]->events;
         }
     }
     out.device_count = 0;
@@ -592,6 +594,7 @@ void SessionLoop::publish(Nanoseconds now) {
                                                slot.workspace.pose.rotation * slot.sample.rotation,
                                                slot.hand_velocity,
                                                slot.force * slot.workspace.force_scale,
+                                               slot.asked * slot.workspace.force_scale,
                                                direction_to_parent(slot.workspace.pose, slot.safe.torque),
                                                slot.sample.buttons,
                                                slot.sample.connected,
@@ -600,7 +603,7 @@ void SessionLoop::publish(Nanoseconds now) {
                                                slot.wanted_stiffness,
                                                slot.used_stiffness,
                                                {seconds_, slot.capabilities.delay},
-                                               slot.capabilities.radius,
+                                               slot.capabilities,
                                                slot.safety.work()};
         }
     }
@@ -647,34 +650,6 @@ std::uint64_t SessionLoop::outcome() const {
         }
     }
     return hash.value();
-}
-
-void SessionLoop::append_record(const Recording& recording, Nanoseconds now, Nanoseconds late) {
-    if (recording.proxy >= max_proxies || !proxies_[recording.proxy].proxy) {
-        return;
-    }
-    const ProxyState& state = proxies_[recording.proxy].state;
-    SessionRecord row;
-    row.time = now;
-    row.ran = now + late;
-    row.proxy = recording.proxy;
-    row.hand = state.hand;
-    row.proxy_position = state.position;
-    row.force = state.force;
-    if (const SessionHandle device = proxies_[recording.proxy].description.device; device < max_devices) {
-        const DeviceSlot& slot = devices_[device];
-        row.displayed = slot.displayed ? force_in_scene(slot.workspace, slot.displayed->force) : slot.force;
-        row.cuts = slot.displayed ? slot.displayed->cuts : 0u;
-    }
-    row.proxy_status = state.status;
-    row.contacts = static_cast<std::uint32_t>(state.contact_count);
-    if (const Body* object = body(recording.object)) {
-        row.object_position = scene_.body(object->slot).pose.position;
-        row.object_rotation = scene_.body(object->slot).pose.rotation;
-    }
-    if (!recording.ring->append(row)) {
-        status_ |= session_record_lost;
-    }
 }
 
 }  // namespace tactus

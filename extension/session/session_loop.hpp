@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "core/haptics/fading_force.hpp"
-#include "core/haptics/hand_field.hpp"
 #include "core/haptics/surface_effects.hpp"
 #include "core/haptics/touch_scene.hpp"
 #include "core/proxy/proxy.hpp"
@@ -18,6 +17,7 @@
 #include "realtime/tick_trace.hpp"
 #include "realtime/triple_buffer.hpp"
 #include "session/change_order.hpp"
+#include "session/puncture.hpp"
 #include "session/session_commands.hpp"
 #include "session/soft_slot.hpp"
 #include "session/teleop_side.hpp"
@@ -93,12 +93,16 @@ public:
         bool sliding = false;
         bool idle = false;  // a side says that nobody holds it: it touches nothing
         EffectMemory effects;
-        std::array<HandEffectMemory, HandEffects::most> effect_memory;
+        AidMemory aids;
         HandField field;       // that its owner computes, see Session::set_hand_field
-        bool changed = false;  // by its owner since the last tick: its guide, or where its hand is
+        bool changed = false;  // by its owner since the last tick: its guides, or where its hand is
         TorsionList torsion;   // one each of `parts`; none where the finger is a point
         bool rested = false;   // since the last tick
         ProxyState state;
+        Punctures punctures;
+        ImpactWatch impacts;
+        BreakWatch breaks;
+        TouchEvents events;
 
         bool present() const { return proxy && description.enabled; }
         SceneForce scene_force() const { return {force, step, jumped}; }
@@ -212,7 +216,7 @@ public:
 private:
     struct Recording {
         RecorderRing<SessionRecord>* ring = nullptr;
-        SessionHandle proxy = no_handle;
+        SessionHandle proxy = no_handle;  // or hand_of_tool()
         SessionHandle object = no_handle;
     };
     struct DeviceSlot {
@@ -228,7 +232,8 @@ private:
         Quat orientation{1.0, 0.0, 0.0, 0.0};     // of the hand, in the world
         Vec3 torque{0.0};                         // of all its tools, in the world (unit: newton meters)
         Vec3 force{0.0};                          // of all its proxies, in the world (unit: newtons)
-        Vec3 refused{0.0};                        // of what they wanted, by its limits (unit: newtons)
+        Vec3 asked{0.0};                          // the same before every limit (unit: newtons)
+        Vec3 refused{0.0};                        // of that, by its limits (unit: newtons)
         DeviceSample heard;                       // as it came, with whatever nonsense
         std::optional<DisplayedForce> displayed;  // up to `heard`
         bool is_sound = true;                     // `heard` has none
@@ -282,6 +287,7 @@ private:
     bool carry_out(command::AddProxy& c, Retired&);
     bool carry_out(command::SetProxy& c, Retired&);
     bool carry_out(command::SetField& c, Retired&);
+    bool carry_out(command::SetGuideFrames& c, Retired&);
     bool carry_out(command::RemoveProxy& c, Retired& retired);
     bool carry_out(command::AddTool& c, Retired&);
     bool carry_out(command::SetTool& c, Retired&);
@@ -320,8 +326,8 @@ private:
     double force_limit(SessionHandle device) const;
     double fade_of(SessionHandle device) const;
     bool touch_fades(std::size_t device) const;
-    void hold_tools();
-    ToolHand hand_at(const DeviceSlot& device, const ToolUse& use) const;
+    void hold_tools(Nanoseconds now);
+    ToolHand hand_at(ToolSlot& slot, Nanoseconds now) const;
     bool takes_hold(ToolSlot& slot) const;
     static bool fits_beside_tools(ToolSlot& slot);
     ToolGroup* tool_group() const;
@@ -342,21 +348,11 @@ private:
     bool touches_other_walls(ProxySlot& slot) const;
     void press_all();
     Vec3 attract(const ProxySlot& slot, bool press);
-    struct Lead {
-        Vec3 force{0.0};         // (unit: newtons)
-        double stiffness = 0.0;  // (unit: newtons per meter)
-        bool jumped = false;     // it may be another one than the hand's way makes it
-    };
-    Lead lead(ProxySlot& slot, const LoopLag& lag, double damping) const;
-    // What computations and effects give the hand besides touch and a guide.
-    struct Field {
-        Vec3 force{0.0};  // (unit: newtons)
-        Wall wall;        // how steep that is
-    };
-    Field field(ProxySlot& slot, const LoopLag& lag, double unled, Nanoseconds now) const;
+    AidedHand aided_hand(SessionHandle device, const HandMotion& motion, Nanoseconds now) const;
     void hold_against_turning(ProxySlot& slot) const;
     void note_walls(const ProxySlot& slot, DeviceSlot& device) const;
     void break_surfaces(ProxySlot& slot, const HandForce& force);
+    Wall feel_punctures(ProxySlot& slot, const AidedHand& hand, double damping);
     void note_magnet(SessionHandle handle);
     void forget_magnet(SessionHandle handle);
     void push_bodies();
@@ -375,8 +371,14 @@ private:
     void step_soft();
     void guess();
     void publish(Nanoseconds now);
+    bool describe_hand(SessionHandle hand, SessionRecord& row) const;
     void append_record(const Recording& recording, Nanoseconds now, Nanoseconds late);
     void describe(ProxySlot& slot, const ProxyTick& tick);
+    void note_events();
+    ImpactContact impact_of(const Touch& touch, const Vec3& velocity, const Vec3& force) const;
+    void note_impacts(ProxySlot& slot) const;
+    void note_impacts(ToolSlot& slot) const;
+    void note_breaks(ProxySlot& slot) const;
 
     SessionSettings settings_;
     double seconds_;  // of a tick

@@ -167,7 +167,7 @@ bool SessionLoop::save(LoopMemento& memento) {
     for (std::size_t i = 0; i < proxies_.size(); ++i) {
         if (proxies_[i].proxy) {
             memento.pointers[i] = {proxies_[i].proxy->memory(), proxies_[i].effects, proxies_[i].torsion,
-                                   proxies_[i].force};
+                                   proxies_[i].force, proxies_[i].aids};
         }
     }
     for (std::size_t i = 0; i < tools_.size(); ++i) {
@@ -197,6 +197,7 @@ bool SessionLoop::restore(const LoopMemento& memento) {
             proxies_[i].effects = memento.pointers[i].effects;
             proxies_[i].torsion = memento.pointers[i].torsion;
             proxies_[i].force = memento.pointers[i].force;
+            proxies_[i].aids = memento.pointers[i].aids;
         }
     }
     for (std::size_t i = 0; i < tools_.size(); ++i) {

@@ -56,14 +56,6 @@ bool SessionLoop::carry_out(command::RemoveTool& c, Retired& retired) {
 
 namespace {
 
-Touch surface_of(const ToolTouch& touch) {
-    Touch surface;
-    surface.point = touch.point;
-    surface.body = touch.body;
-    surface.feature = touch.feature;
-    return surface;
-}
-
 // What of a touch's stiffness is its own. The coupling presses with all of a body's touches together: where
 // n of them give way alike, it loosens once, not n times. Those along which it presses at right angles do not
 // know of each other.
@@ -80,22 +72,26 @@ double own_share(std::span<const ToolTouch> touches, const ToolTouch& one) {
 }  // namespace
 
 // Where the devices have the hands; a side may have them elsewhere.
-void SessionLoop::hold_tools() {
+void SessionLoop::hold_tools(Nanoseconds now) {
     for (const std::unique_ptr<ToolSlot>& slot : tools_) {
         if (slot) {
             const SessionHandle device = slot->use.device;
             slot->hand.holds = slot->use.enabled && is_there(device);
             if (slot->hand.holds) {
-                slot->hand = hand_at(devices_[device], slot->use);
+                slot->hand = hand_at(*slot, now);
             }
         }
     }
 }
 
-ToolHand SessionLoop::hand_at(const DeviceSlot& device, const ToolUse& use) const {
-    const Wall safe = safe_wall({seconds_, device.capabilities.delay},
-                                damping_in_scene(device.workspace, device.capabilities.damping),
-                                {use.settings.stiffness, 0.0});
+// What acts on the hand besides touch comes first: the coupling is as stiff as the damping that is left
+// bears.
+ToolHand SessionLoop::hand_at(ToolSlot& slot, Nanoseconds now) const {
+    const ToolUse& use = slot.use;
+    const DeviceSlot& device = devices_[use.device];
+    const AidedHand hand = aided_hand(use.device, {device.hand, device.hand_velocity}, now);
+    const AidForce aid = aid_force(use.aids, hand, slot.field, slot.aids);
+    const Wall safe = safe_wall(hand.lag, aid.damping, {use.settings.stiffness, 0.0});
     const Vec3 spin = device.hand_turn / seconds_;
     const Pose goal = compose({device.hand, device.orientation}, use.grasp);
     return {goal,
@@ -105,7 +101,9 @@ ToolHand SessionLoop::hand_at(const DeviceSlot& device, const ToolUse& use) cons
             safe.stiffness / use.settings.stiffness,
             fade_of(use.device),
             FadingWrench::max_torque_step * device.workspace.scale / device.workspace.force_scale,
-            true};
+            true,
+            false,
+            aid};
 }
 
 double SessionLoop::force_limit(const ToolSlot& slot) const {
@@ -199,7 +197,8 @@ void SessionLoop::feel(ToolSlot& slot, const ToolTick& tick) {
     slot.wrench.torque = slot.hand.fixed ? Vec3(0.0)
                                          : tick.torque * slot.hand.share +
                                                glm::cross(goal.position - slot.hand.place, slot.wrench.force);
-    slot.jumped = tick.jumped;
+    slot.wrench.force += slot.hand.aid.force;
+    slot.jumped = tick.jumped || slot.hand.aid.jumped || std::exchange(slot.changed, false);
     slot.turned += slot.hand.spin * seconds_;
     double given = 0.0;
     for (const ToolTouch& touch : slot.proxy.touching()) {
@@ -210,7 +209,8 @@ void SessionLoop::feel(ToolSlot& slot, const ToolTick& tick) {
         const Vec3 way = meeting.other->way().at(meeting.point - meeting.other->pose().position);
         given += glm::dot(meeting.force, way) * slot.hand.share;
     }
-    slot.source = std::max(0.0, given);
+    const Vec3 velocity = slot.hand.velocity_at(slot.hand.place);
+    slot.source = std::max(0.0, given) + std::max(0.0, seconds_ * glm::dot(slot.hand.aid.force, velocity));
     status_ |= tick.status & tool_unfinished ? static_cast<TickStatus>(session_proxy_unfinished) : 0u;
     slot.state.torque = slot.wrench.torque;
     describe(slot, tick);
@@ -227,13 +227,15 @@ void SessionLoop::describe(ToolSlot& slot, const ToolTick& tick) const {
     state.pose = tick.pose;
     state.hand = slot.hand.goal;
     state.residual = tick.residual;
-    state.status = tick.status | (slot.hand.fixed ? static_cast<std::uint32_t>(tool_turn_fixed) : 0u);
+    state.status = tick.status | (slot.hand.fixed ? static_cast<std::uint32_t>(tool_turn_fixed) : 0u) |
+                   (slot.field.is_limited() ? touch_field_limited : 0u);
     state.contact_count = 0;
     for (const ToolTouch& touch : slot.proxy.touching()) {
         const auto i = static_cast<std::size_t>(state.contact_count++);
         state.bodies[i] = handle_of_slot_[static_cast<std::size_t>(touch.body)];
         state.points[i] = touch.point;
         state.normals[i] = touch.normal;
+        state.forces[i] = touch.force * slot.hand.share;
         state.tools[i] = no_handle;
     }
     for (const ToolMeeting& meeting : slot.proxy.meetings()) {
@@ -244,6 +246,7 @@ void SessionLoop::describe(ToolSlot& slot, const ToolTick& tick) const {
         state.bodies[i] = no_handle;
         state.points[i] = meeting.point;
         state.normals[i] = meeting.normal;
+        state.forces[i] = meeting.force * slot.hand.share;
         state.tools[i] = handle_of(*meeting.other);
     }
 }

@@ -6,11 +6,10 @@
 #include <vector>
 
 #include "core/haptics/force_law.hpp"
-#include "core/haptics/hand_effect.hpp"
-#include "core/haptics/hand_field.hpp"
-#include "core/haptics/hand_guide.hpp"
+#include "core/haptics/hand_aids.hpp"
 #include "core/math/body_motion.hpp"
 #include "core/math/pose.hpp"
+#include "core/ports/device.hpp"
 #include "core/proxy/proxy_settings.hpp"
 #include "core/safety/hand_safety.hpp"
 #include "core/safety/stiffness_limit.hpp"
@@ -19,6 +18,7 @@
 #include "core/tool/tool_settings.hpp"
 #include "physics/physics_world.hpp"
 #include "session/hand_mapping.hpp"
+#include "session/touch_events.hpp"
 
 namespace tactus {
 
@@ -31,6 +31,11 @@ constexpr std::size_t max_recordings = 8;
 constexpr std::size_t max_proxies = 16;
 constexpr std::size_t max_tools = 4;
 constexpr std::size_t max_led = 64;
+
+// Proxies and tools counted together.
+constexpr SessionHandle hand_of_tool(SessionHandle tool) {
+    return static_cast<SessionHandle>(max_proxies) + tool;
+}
 
 struct SessionSettings {
     Nanoseconds period = 1'000'000;   // of a tick, > 0
@@ -48,9 +53,8 @@ struct ProxyDescription {
     SessionHandle device = no_handle;
     ProxySettings settings;
     ForceLaw force_law = ForceLaw::spring;
-    SoftFinger finger;         // what bodies are held by against turning
-    HandGuide guide;           // leads the hand, besides what it touches
-    HandEffects effects = {};  // act on the hand
+    SoftFinger finger;  // what bodies are held by against turning
+    HandAids aids{};    // act on the hand besides what it touches
     bool enabled = true;
 };
 
@@ -58,7 +62,8 @@ struct ProxyDescription {
 struct ToolUse {
     SessionHandle device = no_handle;
     ToolSettings settings;
-    Pose grasp;  // of the tool in the hand's frame
+    Pose grasp;       // of the tool in the hand's frame
+    HandAids aids{};  // act on the hand besides what the tool touches
     bool enabled = true;
 };
 
@@ -141,7 +146,8 @@ enum FeltStatus : std::uint32_t {
 // A bit of ProxyState::status and ToolState::status: its device is not there, or it is switched off.
 inline constexpr std::uint32_t touch_unheld = 1u << 22;
 
-// A bit of ProxyState::status: the field of its owner was made weaker, see HandField::is_limited.
+// A bit of ProxyState::status and ToolState::status: the field of its owner was made weaker, see
+// HandField::is_limited.
 inline constexpr std::uint32_t touch_field_limited = 1u << 23;
 
 // A bit of ProxyState::status and ToolState::status at the far side: no operator's hand is there, and the
@@ -166,6 +172,7 @@ struct ProxyState {
     std::array<SessionHandle, HandForce::max_contacts> bodies{no_handle, no_handle, no_handle};
     std::array<Vec3, HandForce::max_contacts> points{};
     std::array<Vec3, HandForce::max_contacts> normals{};
+    std::array<Vec3, HandForce::max_contacts> forces{};  // of each on the hand (unit: newtons)
 };
 
 struct ToolState {
@@ -186,6 +193,7 @@ struct ToolState {
                                                   no_handle, no_handle, no_handle};
     std::array<Vec3, max_contacts> points{};
     std::array<Vec3, max_contacts> normals{};
+    std::array<Vec3, max_contacts> forces{};  // of each on the hand (unit: newtons)
 };
 
 struct DeviceState {
@@ -194,6 +202,7 @@ struct DeviceState {
     Quat rotation{1.0, 0.0, 0.0, 0.0};
     Vec3 velocity{0.0};  // (unit: meters per second)
     Vec3 force{0.0};     // given to the device, in the world (unit: newtons)
+    Vec3 asked{0.0};     // the same before every limit
     Vec3 torque{0.0};    // likewise, to its handle (unit: newton meters)
     std::uint32_t buttons = 0;
     bool connected = false;
@@ -202,9 +211,9 @@ struct DeviceState {
     // What was touched last that the device cannot render safely, and what it was given instead.
     double stiffness_wanted = 0.0;  // (unit: newtons per meter); 0: all of it was safe
     double stiffness_used = 0.0;
-    LoopLag lag;          // of the device, for which that holds
-    double radius = 0.0;  // of its workspace, in its own frame (unit: meters); 0: it has none
-    double work = 0.0;    // on the hand since it came (unit: joules); below zero: taken from it
+    LoopLag lag;  // of the device, for which that holds
+    DeviceCapabilities capabilities;
+    double work = 0.0;  // on the hand since it came (unit: joules); below zero: taken from it
 };
 
 // Everything Godot shows of one tick. Bodies: those that can move, each with where it is now.
@@ -217,6 +226,8 @@ struct SessionSnapshot {
     std::size_t proxy_count = 0;
     std::array<ToolState, max_tools> tools;
     std::size_t tool_count = 0;
+    // Of all hands, by hand_of_tool() where it is that of a tool.
+    std::array<TouchEvents, max_proxies + max_tools> touch_events;
     std::array<DeviceState, max_devices> devices;
     std::size_t device_count = 0;
     std::array<LedState, max_led> led;
@@ -238,14 +249,14 @@ const typename States::value_type* state_of(const States& states, std::size_t co
     return nullptr;
 }
 
-// One row of a recording: a proxy and, where a body is followed, that body (thesis 4.5).
+// One row of a recording: the proxy or tool of a hand and, where a body is followed, that body (thesis 4.5).
 struct SessionRecord {
     Nanoseconds time = 0;  // when the tick was due, on the session's clock
     Nanoseconds ran = 0;   // when it began, on that clock: `time` where no clock drives the session
-    SessionHandle proxy = no_handle;
-    Vec3 hand{0.0};            // in the world (unit: meters)
-    Vec3 proxy_position{0.0};  // in the world (unit: meters)
-    Vec3 force{0.0};           // that the proxy asks for, in the world (unit: newtons)
+    SessionHandle proxy = no_handle;  // or hand_of_tool() of a tool
+    Vec3 hand{0.0};                   // of a tool where the hand would have it, in the world (unit: meters)
+    Vec3 proxy_position{0.0};         // of proxy or tool, in the world (unit: meters)
+    Vec3 force{0.0};                  // that it asks for, in the world (unit: newtons)
     // That its device was given by all limits, in the world (unit: newtons); where a driver knows it, what
     // the motors were given up to this tick's reading, and DisplayedForce::cuts.
     Vec3 displayed{0.0};

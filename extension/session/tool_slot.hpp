@@ -34,9 +34,20 @@ struct ToolHand {
     double turn_fade = FadingWrench::max_torque_step;  // likewise (unit: newton meters)
     bool holds = false;                                // else it touches nothing
     bool fixed = false;  // what carries the tool at the far side cannot turn: the hand's turn means nothing
+    AidForce aid{};      // acts at the hand's place, besides what the tool touches
 
     Vec3 velocity_at(const Vec3& point) const { return velocity + glm::cross(spin, point - goal.position); }
 };
+
+// What a tool touches, as one that asks for its surface knows it.
+inline Touch surface_of(const ToolTouch& touch) {
+    Touch surface;
+    surface.point = touch.point;
+    surface.normal = touch.normal;
+    surface.body = touch.body;
+    surface.feature = touch.feature;
+    return surface;
+}
 
 struct ToolSlot {
     ToolSlot(std::shared_ptr<const ToolShape> shape, std::size_t max_parts, const ToolUse& first_use)
@@ -59,8 +70,13 @@ struct ToolSlot {
     Vec3 turned{0.0};         // by the hand, all its turns added up (unit: radians)
     bool jumped = false;      // see ProxyTick
     bool rested = false;      // since the last tick
-    bool is_fixed = false;    // hand.fixed, as the proxy's settings have it
+    bool changed = false;     // by its owner since the last tick
+    AidMemory aids;
+    HandField field;        // that its owner computes, see Session::set_hand_field
+    bool is_fixed = false;  // hand.fixed, as the proxy's settings have it
     ToolState state;
+    ImpactWatch impacts;
+    TouchEvents events;
     // Where an operator's hand holds it: what came of that. Null: no far side says so.
     std::unique_ptr<JitterBuffer<OperatorSample>> heard;
     std::uint64_t heard_settings = 0;  // see PlayedHands
@@ -79,6 +95,7 @@ struct ToolSlot {
         proxy.restart();
         wrench = {};
         source = 0.0;
+        aids = {};
         jumped = true;
         state = {};
         state.pose = hand.goal;
@@ -88,8 +105,12 @@ struct ToolSlot {
 
     // What the hand's own way can have made of the force.
     FadingForce::Step step() const {
-        return {hand.goal.position, hand.velocity,      use.settings.stiffness * hand.share, 0.0,
-                hand.fade,          state.pose.position};
+        return {hand.goal.position,
+                hand.velocity,
+                use.settings.stiffness * hand.share + hand.aid.wall.stiffness,
+                hand.aid.wall.damping,
+                hand.fade,
+                state.pose.position};
     }
     // The same of its turn and the torque.
     FadingForce::Step turn() const {

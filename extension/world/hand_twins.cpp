@@ -16,7 +16,7 @@ bool same(const Workspace& a, const Workspace& b) {
 bool same(const ProxyDescription& a, const ProxyDescription& b) {
     return a.device == b.device && a.settings.radius == b.settings.radius &&
            a.settings.mask == b.settings.mask && a.force_law == b.force_law && a.finger == b.finger &&
-           a.guide == b.guide && a.effects == b.effects && a.enabled == b.enabled;
+           are_same_aids(a.aids, b.aids) && a.enabled == b.enabled;
 }
 
 bool same(const ToolUse& a, const ToolUse& b) {
@@ -26,7 +26,21 @@ bool same(const ToolUse& a, const ToolUse& b) {
            a.settings.layer == b.settings.layer && a.settings.static_friction == b.settings.static_friction &&
            a.settings.dynamic_friction == b.settings.dynamic_friction &&
            a.grasp.position == b.grasp.position && a.grasp.rotation == b.grasp.rotation &&
-           a.enabled == b.enabled;
+           are_same_aids(a.aids, b.aids) && a.enabled == b.enabled;
+}
+
+// Guides that go along with nodes of the scene, where all else is as it was.
+void move_guides(Session& session, SessionHandle hand, const HandAids& before, const HandAids& now) {
+    Session::GuideFrames frames;
+    bool have_moved = false;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        const Pose& was = before.guides[i].frame;
+        frames[i] = now.guides[i].frame;
+        have_moved = have_moved || frames[i].position != was.position || frames[i].rotation != was.rotation;
+    }
+    if (have_moved) {
+        session.set_guide_frames(hand, frames);
+    }
 }
 
 }  // namespace
@@ -70,8 +84,11 @@ std::string ProxyTwin::synchronise(Session& session, const ProxyDescription& des
         sent_ = description;
         return std::move(added.error);
     }
-    if (!same(description, std::exchange(sent_, description))) {
+    const ProxyDescription before = std::exchange(sent_, description);
+    if (!same(description, before)) {
         session.set_proxy(handle_, description);
+    } else {
+        move_guides(session, handle_, before.aids, description.aids);
     }
     return {};
 }
@@ -98,8 +115,11 @@ std::string ToolTwin::synchronise(Session& session, const std::shared_ptr<const 
         sent_ = use;
         return std::move(added.error);
     }
-    if (!same(use, std::exchange(sent_, use))) {
+    const ToolUse before = std::exchange(sent_, use);
+    if (!same(use, before)) {
         session.set_tool(handle_, use);
+    } else {
+        move_guides(session, hand_of_tool(handle_), before.aids, use.aids);
     }
     return {};
 }

@@ -11,7 +11,7 @@ bool same_joint(const JointDescription& a, const JointDescription& b) {
     };
     return a.kind == b.kind && std::ranges::equal(a.linear, b.linear, same) &&
            std::ranges::equal(a.angular, b.angular, same) && a.motor_speed == b.motor_speed &&
-           a.motor_torque == b.motor_torque && a.bodies_collide == b.bodies_collide;
+           a.motor_torque == b.motor_torque && a.bodies_collide == b.bodies_collide && a.drive == b.drive;
 }
 
 // The joint goes along with its bodies; its node need not. As with Godot, moving the node later moves

@@ -30,9 +30,12 @@ SceneHand::SceneHand(HandPlan plan, const Workspace& mapping) : pointed_at_(plan
         driver_ = std::make_shared<DriverDevice>(make_driver(driver_of(plan.kind), std::move(plan.driver)));
         port_ = driver_;
     } else if (plan.kind == HandKind::path) {
-        port_ = std::make_shared<PathDevice>(std::move(plan.path));
+        const auto follower = std::make_shared<PathDevice>(std::move(plan.path));
+        clock_ = &follower->clock();
+        port_ = follower;
     } else if (plan.kind == HandKind::arm) {
         arm_ = std::make_shared<SimulatedArm>(std::move(plan.path), plan.arm);
+        clock_ = &arm_->clock();
         port_ = arm_;
     } else if (plan.kind == HandKind::emulated_robot) {
         RobotTable::Settings table;
@@ -54,6 +57,12 @@ SceneHand::SceneHand(HandPlan plan, const Workspace& mapping) : pointed_at_(plan
 void SceneHand::change(const ArmSettings& arm) {
     if (arm_ != nullptr) {
         arm_->change(arm);
+    }
+}
+
+void SceneHand::restart_path() {
+    if (clock_ != nullptr) {
+        clock_->restart();
     }
 }
 

@@ -69,6 +69,11 @@ public:
     const std::shared_ptr<Device>& port() const { return port_; }  // null: there is none
 
     void change(const ArmSettings& arm);
+    // Of one that follows a path: it begins anew with the next tick.
+    void restart_path();
+    // How long it has been on its way; 0 of any other hand.
+    Nanoseconds path_time() const { return clock_ != nullptr ? clock_->elapsed() : 0; }
+
     // Of its driver; of any other hand there is nothing to say.
     DriverHealth health() const { return driver_ != nullptr ? driver_->health() : DriverHealth{}; }
 
@@ -90,6 +95,7 @@ private:
     std::shared_ptr<FollowingDevice> follower_;  // the same as port_, or null; likewise these
     std::shared_ptr<SimulatedArm> arm_;
     std::shared_ptr<DriverDevice> driver_;
+    PathClock* clock_ = nullptr;  // of port_; null: it follows no path
     void aim(const Vec3& place, std::uint32_t buttons, bool is_there = true);
 
     Vec3 aimed_at_{0.0};                  // in the device's own frame (unit: meters)

@@ -15,6 +15,18 @@ TEST(PathDevice, ItsPathBeginsWithTheFirstTick) {
     EXPECT_EQ(later.velocity, sample_path(CircleWave{}, 1'500 * ms).velocity);
 }
 
+TEST(PathDevice, ItsPathBeginsAnewWhereThatIsAskedFor) {
+    PathDevice device(CircleWave{});
+    device.read(0);
+    device.read(1'500 * ms);
+    EXPECT_EQ(device.clock().elapsed(), 1'500 * ms);
+    device.clock().restart();
+    EXPECT_EQ(device.clock().elapsed(), 0);
+    EXPECT_EQ(device.read(1'501 * ms).position, sample_path(CircleWave{}, 0).position);
+    EXPECT_EQ(device.read(1'511 * ms).position, sample_path(CircleWave{}, 10 * ms).position);
+    EXPECT_EQ(device.clock().elapsed(), 10 * ms);
+}
+
 TEST(PathDevice, IsAlwaysConnectedAndFeelsNothing) {
     PathDevice device(CircleWave{});
     PathDevice pushed(CircleWave{});

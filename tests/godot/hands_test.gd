@@ -306,7 +306,7 @@ func test_feedback_without_a_proxy_says_so() -> void:
 	var world := add_world()
 	var feedback := HapticVibrationSound.new()
 	world.add_child(feedback)
-	expect_error("there is no ProxyPointer in its world")
+	expect_error("there is no ProxyPointer or HapticTool in its world")
 	await frames(2)
 	world.advance(0.01)
 	check("\n".join(feedback.get_problems()).contains("is silent"), str(feedback.get_problems()))

@@ -155,6 +155,10 @@ func _shows_haptic_force(scene: Node) -> bool:
 	return _added(scene, "World/Pointer", "HapticEffect").formula.form == HapticForce.FORM_DETENT
 
 
+func _shows_haptic_joint_drive(scene: Node3D) -> bool:
+	return scene.detents.get_problems().is_empty() and scene.hinge.get_child(0) == scene.detents
+
+
 func _shows_haptic_guide(scene: Node) -> bool:
 	return scene.get_node("World/Pointer").guide.get_problems().is_empty()
 

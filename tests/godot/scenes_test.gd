@@ -147,7 +147,7 @@ func test_the_recorder_says_what_it_lacks() -> void:
 	recorder.csv_path = FOLDER.path_join("nothing.csv")
 	world.add_child(recorder)
 	check(recorder.get_problems()[0].contains("set 'proxy' anew"), "no warning")
-	expect_error("is not a ProxyPointer of the scene")
+	expect_error("is not a ProxyPointer or a HapticTool of the scene")
 	world.advance(0.01)
 	check_equal(recorder.get_rows(), 0, "rows")
 

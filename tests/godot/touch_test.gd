@@ -58,6 +58,78 @@ func test_contact_signals_come_once_each() -> void:
 	check_equal(heard, [["started", ground], ["ended", ground]], "signals")
 
 
+func test_a_harder_impact_tells_more_speed_and_impulse() -> void:
+	var impacts := []
+	for seconds: float in [1.0, 0.25]:
+		var world := add_world()
+		add_floor(world)
+		var proxy := add_hand(world, path(Vector3(0, 0.05, 0), Vector3.ZERO, seconds))
+		proxy.impact.connect(
+			func(body: Node3D, speed: float, impulse: float) -> void:
+				impacts.append([String(body.name), speed, impulse])
+		)
+		world.advance(seconds + 0.1)
+		world.free()
+	check_equal(impacts.size(), 2, "impacts")
+	check_equal(impacts[0][0], "Floor", "body")
+	check_near(impacts[0][1], 0.05, 1e-6, "speed")
+	check_near(impacts[1][1], 0.2, 1e-6, "speed of the harder one")
+	check_near(impacts[1][2] / impacts[0][2], 4.0, 0.5, "impulse of the harder one")
+
+
+func test_a_contact_has_its_force() -> void:
+	var world := add_world()
+	add_floor(world)
+	var proxy := add_hand(world, path(Vector3(0, 0.05, 0), Vector3.ZERO))
+	world.advance(1.2)
+	check_near(proxy.get_contacts()[0]["force"], Vector3(0, 5.0, 0), 1e-6, "force of the contact")
+
+
+func test_what_the_scene_asks_for_and_what_is_left_of_it() -> void:
+	var world := add_world()
+	add_floor(world)
+	var proxy := add_hand(world, path(Vector3(0, 0.05, 0), Vector3.ZERO))
+	var device: HapticDevice = proxy.get_node(proxy.device)
+	check_equal(device.get_capabilities(), {}, "capabilities before the first tick")
+	device.force_limit = 2.0
+	world.advance(1.2)
+	check_near(device.get_requested_force(), Vector3(0, 5.0, 0), 1e-6, "asked for")
+	check_near(device.get_force(), Vector3(0, 2.0, 0), 1e-6, "given")
+	check_equal(device.get_capabilities()["has_motors"], false, "motors")
+	check_equal(device.get_capabilities()["max_force"], INF, "largest force")
+
+
+func test_a_path_ends_and_begins_again() -> void:
+	var world := add_world()
+	var device := add_device(world, path(Vector3.ZERO, Vector3(0.1, 0, 0), 0.5))
+	var ends := [0]
+	device.path_finished.connect(func() -> void: ends[0] += 1)
+	world.advance(0.25)
+	check_near(device.get_path_time(), 0.249, 1e-6, "time on the path")
+	check_equal(ends[0], 0, "ends at half the way")
+	world.advance(1.0)
+	check_equal(ends[0], 1, "ends")
+	device.restart_path()
+	check_equal(device.get_path_time(), 0.0, "time after a restart")
+	world.advance(0.1)
+	check_near(device.get_hand_position(), Vector3(0.0198, 0, 0), 1e-6, "place on the way again")
+	world.advance(1.0)
+	check_equal(ends[0], 2, "ends of both rounds")
+	device.path = path(Vector3.ZERO, Vector3(0.1, 0, 0), 0.5)
+	world.advance(0.1)
+	check_near(device.get_path_time(), 0.099, 1e-6, "time on another path")
+
+
+func test_a_path_that_repeats_never_ends() -> void:
+	var world := add_world()
+	var way := HapticPath.new()
+	way.circle_turn_time = 0.1
+	var device := add_device(world, way)
+	device.path_finished.connect(func() -> void: check(false, "it has no end"))
+	world.advance(1.0)
+	check_near(device.get_path_time(), 0.999, 1e-6, "time on the path")
+
+
 func test_the_smoothed_law_ends_at_the_same_force() -> void:
 	var world := add_world()
 	add_floor(world, 400.0)

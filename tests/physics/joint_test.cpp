@@ -310,5 +310,157 @@ TEST(Joint, AddingSteppingAndRemovingAllocatesNothing) {
     EXPECT_EQ(audit.frees(), 0u) << audit.describe();
 }
 
+// --- drives
+
+// A knob of 40 g, 30 mm across, that turns about z.
+struct Knob {
+    explicit Knob(const JointDrive& drive) : world(weightless()) {
+        BodyDescription disc = box({0.03, 0.03, 0.02}, Vec3(0.0), 0.04);
+        disc.can_sleep = false;
+        id = add(world, disc);
+        JointDescription hinge;
+        hinge.kind = JointKind::Hinge;
+        hinge.angular[2] = JointRange::free();
+        hinge.drive = drive;
+        EXPECT_EQ(wrong_in(hinge), "");
+        EXPECT_TRUE(world.add_joint(hinge, BodyId{}, id).valid());
+    }
+    double angle() {
+        return std::atan2((world.pose(id).rotation * Vec3(1.0, 0.0, 0.0)).y,
+                          (world.pose(id).rotation * Vec3(1.0, 0.0, 0.0)).x);
+    }
+    void turn(double torque, int ticks) {
+        for (int i = 0; i < ticks; ++i) {
+            world.apply_torque(id, {0.0, 0.0, torque});
+            world.step(tick);
+        }
+    }
+    PhysicsWorld world;
+    BodyId id;
+};
+
+constexpr double degree = pi / 180.0;
+const JointDrive detents{.stiffness = 0.1, .damping = 5e-4, .pitch = 30.0 * degree, .strength = 0.02};
+
+TEST(JointDrive, AKnobRestsInItsDetentsWithinADegree) {
+    Knob knob(detents);
+    knob.turn(0.01, 500);  // weaker than a detent: it gives, and comes back
+    EXPECT_GT(knob.angle(), 3.0 * degree);
+    EXPECT_LT(knob.angle(), 9.0 * degree);
+    knob.turn(0.0, 1000);
+    EXPECT_NEAR(knob.angle(), 0.0, degree);
+    knob.turn(0.03, 1000);  // stronger: it goes on and on
+    knob.turn(0.0, 2000);
+    const double detent = std::round(knob.angle() / detents.pitch);
+    EXPECT_NEAR(knob.angle(), detent * detents.pitch, degree);
+    EXPECT_GT(glm::length(knob.world.pose(knob.id).rotation - Quat(1.0, 0.0, 0.0, 0.0)), 0.1);
+}
+
+TEST(JointDrive, ASpringHoldsItsTorqueAndRestsWhereItIsTold) {
+    Knob knob({.stiffness = 0.1, .damping = 1e-3, .rest = 0.3});
+    knob.turn(0.0, 3000);
+    EXPECT_NEAR(knob.angle(), 0.3, 1e-3);
+    knob.turn(0.01, 3000);
+    EXPECT_NEAR(knob.angle(), 0.4, 2e-3);
+}
+
+// I w' = -B w.
+TEST(JointDrive, ADamperSlowsDownByItsDamping) {
+    Knob knob({.damping = 1e-5});
+    const double inertia = 0.04 * 2.0 * 0.03 * 0.03 / 12.0;
+    knob.world.set_velocity(knob.id, Vec3(0.0), {0.0, 0.0, 5.0});
+    knob.turn(0.0, 500);
+    const double left = 5.0 * std::exp(-1e-5 * 0.5 / inertia);
+    EXPECT_NEAR(knob.world.angular_velocity(knob.id).z, left, 0.02 * left);
+}
+
+TEST(JointDrive, ALatchHoldsNearItsPlaceAlone) {
+    Knob knob({.stiffness = 0.5, .damping = 5e-3, .reach = 0.05});
+    knob.turn(0.02, 1000);
+    EXPECT_NEAR(knob.angle(), 0.04, 2e-3);  // held
+    knob.turn(0.03, 300);                   // torn away
+    knob.turn(0.0, 2000);
+    EXPECT_GT(std::abs(knob.angle()), 0.06);
+}
+
+// A block of 1 kg that slides along x and presses against nothing.
+struct Rail {
+    explicit Rail(const JointDescription& wanted) : world(weightless()) {
+        BodyDescription block = box({0.1, 0.1, 0.1}, Vec3(0.0), 1.0);
+        block.can_sleep = false;
+        id = add(world, block);
+        join(wanted);
+    }
+    void join(const JointDescription& wanted) {
+        if (joint.valid()) {
+            world.remove_joint(joint);
+        }
+        JointDescription slider = wanted;
+        slider.kind = JointKind::Slider;
+        slider.frame = {};
+        slider.second_frame = Pose{};
+        joint = world.add_joint(slider, id, BodyId{});
+        EXPECT_TRUE(joint.valid());
+    }
+    PhysicsWorld world;
+    BodyId id;
+    JointId joint;
+};
+
+JointDescription within(double lower, double upper) {
+    JointDescription joint;
+    joint.linear[0] = {lower, upper};
+    return joint;
+}
+
+TEST(JointDrive, ASliderOnASpringGivesByItsForce) {
+    JointDescription sprung = within(-0.2, 0.2);
+    sprung.drive = {.stiffness = 100.0, .damping = 20.0};
+    Rail rail(sprung);
+    for (int i = 0; i < 3000; ++i) {
+        rail.world.apply_force(rail.id, {5.0, 0.0, 0.0}, rail.world.center_of_mass(rail.id));
+        rail.world.step(tick);
+    }
+    EXPECT_NEAR(std::abs(rail.world.pose(rail.id).position.x), 0.05, 1e-3);
+}
+
+// A limit that is raised under a body moves it at a bounded speed, and that is its velocity.
+TEST(JointDrive, ALimitThatIsMovedPushesGently) {
+    Rail rail(within(-0.1, 0.1));
+    rail.world.step(tick);
+    rail.join(within(0.02, 0.1));
+    double before = rail.world.pose(rail.id).position.x, fastest = 0.0;
+    for (int i = 0; i < 100; ++i) {
+        rail.world.step(tick);
+        const double now = rail.world.pose(rail.id).position.x;
+        EXPECT_NEAR((now - before) / tick, rail.world.linear_velocity(rail.id).x, 0.02) << i;
+        fastest = std::max(fastest, std::abs(now - before) / tick);
+        before = now;
+    }
+    EXPECT_LE(fastest, 0.11);
+    for (int i = 0; i < 400; ++i) {
+        rail.world.step(tick);
+    }
+    EXPECT_NEAR(std::abs(rail.world.pose(rail.id).position.x), 0.02, 5e-4);
+    EXPECT_NEAR(rail.world.linear_velocity(rail.id).x, 0.0, 1e-3);
+}
+
+TEST(JointDrive, WhatMakesNoSenseIsRefused) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    JointDescription joint;
+    joint.kind = JointKind::Hinge;
+    for (const JointDrive& wrong :
+         {JointDrive{.stiffness = -1.0}, JointDrive{.damping = nan}, JointDrive{.pitch = -0.1},
+          JointDrive{.strength = nan}, JointDrive{.reach = -1.0}, JointDrive{.rest = nan}}) {
+        joint.drive = wrong;
+        EXPECT_NE(wrong_in(joint), "");
+    }
+    for (const JointKind kind : {JointKind::Pin, JointKind::SixAxes}) {
+        joint.kind = kind;
+        joint.drive = detents;
+        EXPECT_NE(wrong_in(joint), "");
+    }
+}
+
 }  // namespace
 }  // namespace tactus::joint_test

@@ -37,12 +37,14 @@ ProxyDescription led_to(const SessionRig& rig, HandGuide::Form form, const Vec3&
     ProxyDescription led;
     led.device = rig.hand;
     led.settings.radius = 0.01;
-    led.guide.form = form;
-    led.guide.points[0] = first;
-    led.guide.points[1] = last;
-    led.guide.count = form == HandGuide::Form::point ? 1 : 2;
-    led.guide.stiffness = 400.0;
-    led.guide.range = 0.2;
+    HandGuide guide;
+    guide.form = form;
+    guide.points[0] = first;
+    guide.points[1] = last;
+    guide.count = form == HandGuide::Form::point ? 1 : 2;
+    guide.stiffness = 400.0;
+    guide.range = 0.2;
+    led.aids.add(guide);
     return led;
 }
 

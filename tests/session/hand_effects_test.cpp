@@ -3,7 +3,10 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/haptics/fading_force.hpp"
+#include "core/tool/tool_shape.hpp"
 #include "session_rig.hpp"
+#include "shared/meshes.hpp"
 
 namespace tactus::hand_effects_test {
 namespace {
@@ -22,7 +25,7 @@ void give(SessionRig& rig, std::initializer_list<HandEffect> effects) {
     description.device = rig.hand;
     description.settings.radius = 0.01;
     for (const HandEffect& effect : effects) {
-        description.effects.items[description.effects.count++] = effect;
+        description.aids.effects.items[description.aids.effects.count++] = effect;
     }
     rig.session.set_proxy(rig.proxy, description);
 }
@@ -96,6 +99,64 @@ TEST(HandEffects, TheDevicesLimitHolds) {
     EXPECT_NEAR(glm::length(rig.device.force), 3.0, 1e-9);
 }
 
+// A tool feels what acts on its hand as a pointer does.
+TEST(HandEffects, AToolFeelsThemAtTheDevicePosition) {
+    SessionRig rig;
+    rig.session.remove_proxy(rig.proxy);
+    ToolUse use;
+    use.device = rig.hand;
+    use.grasp.position = {0.05, 0.0, 0.0};
+    use.aids.effects.items[0] = effect_of(HandEffect::Form::spring);
+    use.aids.effects.count = 1;
+    HandGuide guide;
+    guide.form = HandGuide::Form::point;
+    guide.mode = HandGuide::Mode::hold;
+    guide.count = 1;
+    guide.points[0] = {0.01, 0.02, 0.0};
+    guide.stiffness = 300.0;
+    use.aids.add(guide);
+    const ToolShapeResult bar = make_tool_shape(shared::box({0.1, 0.01, 0.01}), {1e-3, 500});
+    const SessionHandle tool = rig.session.add_tool(bar.shape, use).handle;
+    rig.device.position = {0.01, 0.01, 0.0};
+    rig.ticks(200);
+    EXPECT_LT(glm::distance(rig.newest().tools[0].force, Vec3(-2.0, -2.0 + 3.0, 0.0)), 1e-9);
+    FieldMoment moment;
+    moment.place = rig.device.position;
+    moment.force = {0.0, 0.0, 1.0};
+    for (int i = 0; i < 20; ++i) {
+        rig.session.set_hand_field(hand_of_tool(tool), moment);
+        rig.ticks(16);
+    }
+    EXPECT_NEAR(rig.newest().tools[0].force.z, 1.0, 1e-6);
+}
+
+TEST(HandEffects, AToolsHandIsRecordedAsAPointersIs) {
+    SessionRig rig;
+    rig.session.remove_proxy(rig.proxy);
+    ToolUse use;
+    use.device = rig.hand;
+    use.aids.effects.items[0] = effect_of(HandEffect::Form::spring);
+    use.aids.effects.count = 1;
+    const ToolShapeResult bar = make_tool_shape(shared::box({0.1, 0.01, 0.01}), {1e-3, 500});
+    const SessionHandle tool = rig.session.add_tool(bar.shape, use).handle;
+    rig.device.position = {0.01, 0.0, 0.0};
+    rig.ticks(200);
+    RecorderRing<SessionRecord> ring(64);
+    ASSERT_TRUE(rig.session.record(ring, hand_of_tool(tool), no_handle));
+    rig.ticks(10);
+    int rows = 0;
+    ring.drain([&](const SessionRecord& row) {
+        ++rows;
+        EXPECT_EQ(row.proxy, hand_of_tool(tool));
+        EXPECT_NEAR(row.force.x, -2.0, 1e-9);
+        EXPECT_NEAR(row.displayed.x, -2.0, 1e-9);
+        EXPECT_EQ(row.hand, rig.device.position);
+    });
+    EXPECT_EQ(rows, 10);
+    rig.session.end_recording(ring);
+    rig.tick();
+}
+
 TEST(HandEffects, TheScenesOwnForceIsGivenBesides) {
     SessionRig rig;
     Workspace workspace;
@@ -113,12 +174,12 @@ TEST(HandEffects, WhatCannotBeComputedIsRefused) {
     SessionRig rig;
     ProxyDescription description;
     description.device = rig.hand;
-    description.effects.count = 1;
-    description.effects.items[0] = effect_of(HandEffect::Form::sine);
-    description.effects.items[0].period = 0.0;
+    description.aids.effects.count = 1;
+    description.aids.effects.items[0] = effect_of(HandEffect::Form::sine);
+    description.aids.effects.items[0].period = 0.0;
     EXPECT_NE(rig.session.add_proxy(description).error, "");
-    description.effects.items[0].period = 0.1;
-    description.effects.count = 9;
+    description.aids.effects.items[0].period = 0.1;
+    description.aids.effects.count = 9;
     EXPECT_NE(rig.session.add_proxy(description).error, "");
 }
 

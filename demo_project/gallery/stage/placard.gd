@@ -59,25 +59,27 @@ func _make_room() -> void:
 
 ## A path that leads nowhere begins again with its scene: what it has pushed is where it was.
 func _process(_delta: float) -> void:
-	if not by_hand and world.get_time() > _end_of_paths() + REST:
+	if not by_hand and _paths_are_over():
 		set_process(false)
 		ended.emit()
 		if owner == get_tree().current_scene:
 			get_tree().reload_current_scene()
 
 
-## In seconds; never where one leads back to its beginning, or where there is none.
-func _end_of_paths() -> float:
-	var end := 0.0
+## For a while. Never where one leads back to its beginning, or where there is none.
+func _paths_are_over() -> bool:
+	var are_over := false
 	for device: HapticDevice in world.find_children("*", "HapticDevice", true, false):
 		var path := device.path
 		if path == null:
 			continue
 		var leads_back := path.points_loop if path.form == HapticPath.FORM_POINTS else path.curve_loop
 		if leads_back or path.form == HapticPath.FORM_CIRCLE_WAVE:
-			return INF
-		end = maxf(end, path.get_duration())
-	return end if end > 0.0 else INF
+			return false
+		if device.get_path_time() < path.get_duration() + REST:
+			return false
+		are_over = true
+	return are_over
 
 
 func _give_hands(to_person: bool) -> void:

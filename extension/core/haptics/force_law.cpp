@@ -1,6 +1,7 @@
 #include "core/haptics/force_law.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 
@@ -19,8 +20,24 @@ struct Pressing {
     double secant = 0.0;  // (unit: newtons per meter)
 };
 
+// Too steep a curve is weakened as a whole, so that its peaks and valleys stay where they are.
+Pressing press_curve(const ForceCurve& curve, const TouchMaterial& material, double stretch,
+                     const SafeWalls& safe) {
+    const double wanted = std::max(curve.steepest, material.stiffness);
+    const Wall bound =
+        safe_wall(safe.lag, safe.device_damping, {std::numeric_limits<double>::infinity(), material.damping});
+    const double share = wanted > bound.stiffness ? bound.stiffness / wanted : 1.0;
+    const ForceCurve::At at = curve.at(stretch, material.stiffness);
+    const double stiffness = share * std::abs(at.slope);
+    return {{stiffness, bound.damping}, wanted, stretch > 0.0 ? share * at.force / stretch : stiffness};
+}
+
 // `stretch`: from proxy to hand, of which the pad has its share (unit: meters).
-Pressing press(const TouchMaterial& material, double stretch, const SafeWalls& safe) {
+Pressing press(const Feel& feel, double stretch, const SafeWalls& safe) {
+    const TouchMaterial& material = *feel.material;
+    if (const ForceCurve* const curve = feel.curve()) {
+        return press_curve(*curve, material, stretch, safe);
+    }
     const SurfaceSpring surface = spring_of(material);
     const double pad = safe.pad_stiffness;
     if (surface.is_linear()) {
@@ -65,7 +82,7 @@ HandForce contact_force(const TouchScene& scene, std::span<const Touch> touching
         if (force.contact_count == HandForce::max_contacts) {
             break;
         }
-        auto [wall, wanted, secant] = press(*feel_at(scene, contact).material, stretched, safe);
+        auto [wall, wanted, secant] = press(feel_at(scene, contact), stretched, safe);
         const double slowed = safe.inverse_mass[static_cast<std::size_t>(force.contact_count)] * seconds;
         wall.damping /= 1.0 + wall.damping * slowed;
         const Vec3 surface_way = way_of_surface(scene, contact);

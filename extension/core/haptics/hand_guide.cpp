@@ -16,7 +16,7 @@ constexpr double farthest = 1e9;       // (unit: meters)
 constexpr double stiffest = 1e6;       // (unit: newtons per meter)
 
 std::size_t points_needed(Form form) {
-    constexpr std::size_t needed[] = {0, 1, 2, 3, 2};
+    constexpr std::size_t needed[] = {0, 1, 2, 3, 0};
     return needed[static_cast<std::size_t>(form)];
 }
 
@@ -24,30 +24,22 @@ Vec3 across(const HandGuide& guide) {
     return glm::cross(guide.points[1] - guide.points[0], guide.points[2] - guide.points[0]);
 }
 
-// Of the line from a to b, as far as those shares of it.
-Vec3 nearest_on_line(const Vec3& a, const Vec3& b, const Vec3& hand, double first, double last) {
-    const Vec3 way = b - a;
-    const double squared = glm::dot(way, way);
-    const double share = squared > 0.0 ? glm::dot(hand - a, way) / squared : 0.0;
-    return a + way * std::clamp(share, first, last);
+bool is_near(const Vec3& place) {
+    const Vec3 size = glm::abs(place);
+    return size.x <= farthest && size.y <= farthest && size.z <= farthest;
 }
 
-}  // namespace
+bool is_frame(const Pose& frame) {
+    const Quat& q = frame.rotation;
+    return is_near(frame.position) && std::abs(glm::dot(q, q) - 1.0) < 1e-6;
+}
 
-std::string check_guide(const HandGuide& guide) {
-    if (guide.count > HandGuide::max_points) {
-        return "a guide has at most 16 points: leave some out, or use several";
-    }
-    if (guide.count < points_needed(guide.form)) {
+std::string check_points(const HandGuide& guide) {
+    if (guide.count > HandGuide::max_points || guide.count < points_needed(guide.form)) {
         return "the guide has too few points: give a point one, a line or a way two, a plane three";
     }
-    if (!(guide.stiffness >= 0.0 && guide.stiffness <= stiffest) ||
-        !(guide.range > 0.0 && guide.range <= farthest)) {
-        return "the guide's stiffness is below 0 or its range is no positive length: set them anew";
-    }
     for (std::size_t i = 0; i < guide.count; ++i) {
-        const Vec3 size = glm::abs(guide.points[i]);
-        if (!(size.x <= farthest && size.y <= farthest && size.z <= farthest)) {
+        if (!is_near(guide.points[i])) {
             return "point " + std::to_string(i) + " of the guide is not a place within 1e9 m: set it anew";
         }
     }
@@ -59,6 +51,27 @@ std::string check_guide(const HandGuide& guide) {
         return "the three points of the guide's plane lie on a line: move one of them away from it";
     }
     return {};
+}
+
+}  // namespace
+
+bool is_same_guide(const HandGuide& a, const HandGuide& b) {
+    return a.form == b.form && a.mode == b.mode && a.count == b.count && a.points == b.points &&
+           a.way == b.way && a.stiffness == b.stiffness && a.range == b.range;
+}
+
+std::string check_guide(const HandGuide& guide) {
+    if (!(guide.stiffness >= 0.0 && guide.stiffness <= stiffest) ||
+        !(guide.range > 0.0 && guide.range <= farthest)) {
+        return "the guide's stiffness is below 0 or its range is no positive length: set them anew";
+    }
+    if (!is_frame(guide.frame)) {
+        return "the guide's frame is no place: reset the transform of the node above it";
+    }
+    if (guide.form == Form::way) {
+        return guide.way ? check_way(*guide.way) : check_way({});
+    }
+    return check_points(guide);
 }
 
 Vec3 guided_place(const HandGuide& guide, const Vec3& hand) {
@@ -74,24 +87,31 @@ Vec3 guided_place(const HandGuide& guide, const Vec3& hand) {
             return hand - normal * glm::dot(hand - p[0], normal);
         }
         case Form::way:
+            return nearest_on_way(*guide.way, hand);
         case Form::none:
             break;
     }
-    Vec3 nearest = hand;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i + 1 < guide.count; ++i) {
-        const Vec3 place = nearest_on_line(p[i], p[i + 1], hand, 0.0, 1.0);
-        const double distance = glm::distance(place, hand);
-        if (distance < least) {
-            least = distance;
-            nearest = place;
-        }
-    }
-    return nearest;
+    return hand;
 }
 
-Vec3 guide_force(const Vec3& offset, double range, double stiffness) {
-    return offset * (-stiffness * std::max(0.0, 1.0 - glm::length(offset) / range));
+Vec3 guide_force(HandGuide::Mode mode, const Vec3& offset, double range, double stiffness) {
+    const double distance = glm::length(offset);
+    switch (mode) {
+        case HandGuide::Mode::attract:
+            return offset * (-stiffness * std::max(0.0, 1.0 - distance / range));
+        case HandGuide::Mode::hold:
+            return offset * -stiffness;
+        case HandGuide::Mode::forbid:
+            break;
+    }
+    // K (R - d) min(1, 2 d / R) / d, without a division by nothing.
+    const double depth = std::max(0.0, range - distance);
+    return offset * (stiffness * depth * (2.0 * distance < range ? 2.0 / range : 1.0 / distance));
+}
+
+double steepest(const HandGuide& guide) {
+    const double steep = guide.mode == HandGuide::Mode::forbid ? 2.0 : 1.0;
+    return guide.form == HandGuide::Form::none ? 0.0 : steep * guide.stiffness;
 }
 
 }  // namespace tactus

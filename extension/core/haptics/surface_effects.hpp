@@ -23,7 +23,6 @@ struct EffectMemory {
     int stuck_body = -1;  // slot of the body that stick-slip holds the hand to
     Vec3 stuck_at{0.0};   // where, in that body's frame (unit: meters)
     std::array<Ringing, HandForce::max_contacts> rings{};  // of the bodies that are touched
-    Vec3 guided_hand{0.0}, guided_to{0.0};                 // by a guide: from where to where (unit: meters)
     Vec3 besides{0.0};          // what has acted on the hand and came from no contact (unit: newtons)
     Vec3 pulled{0.0};           // by magnets (unit: newtons)
     std::uint64_t magnets = 0;  // those magnets, by the count of their changes

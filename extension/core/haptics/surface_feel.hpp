@@ -13,6 +13,7 @@ struct Feel {
 
     const TouchImage* heights() const { return images ? images->heights.get() : nullptr; }
     const TouchImage* friction() const { return images ? images->friction.get() : nullptr; }
+    const ForceCurve* curve() const { return images ? images->curve.get() : nullptr; }
 };
 
 // The body's own where nothing is known of the feature. Copies nothing.

@@ -6,6 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "core/haptics/force_curve.hpp"
+
 namespace tactus {
 
 // Values between 0 and 1 over a square that repeats in both directions: values[row * columns + column].
@@ -18,6 +20,7 @@ struct TouchImage {
 struct TouchImages {
     std::shared_ptr<const TouchImage> heights;   // of the relief; null: it has none
     std::shared_ptr<const TouchImage> friction;  // share of both coefficients; null: all of them
+    std::shared_ptr<const ForceCurve> curve{};   // in place of a stiffness; null: it has none
 
     bool operator==(const TouchImages&) const = default;
 };
@@ -43,7 +46,8 @@ struct TouchMaterial {
     double texture_depth = 0.0;           // from height 0 to height 1 (unit: meters), >= 0
     double magnet_force = 0.0;            // pull towards the surface while touching it (unit: newtons), >= 0
     double magnet_range = 0.01;           // gap at which the pull has faded to nothing (unit: meters), > 0
-    double viscosity = 0.0;               // drag along the surface (unit: newton-seconds per meter), >= 0
+    double viscosity = 0.0;               // drag along the surface, and within it where it has broken
+                                          // (unit: newton-seconds per meter), >= 0
     double stick_slip_stiffness =
         0.0;                        // of the spring to where the hand sticks (unit: newtons per meter), >= 0
     double stick_slip_force = 0.0;  // at which it slips (unit: newtons), >= 0
@@ -54,6 +58,9 @@ struct TouchMaterial {
     double impact_strength = 0.0;
     double impact_frequency = 200.0;  // (unit: hertz), 0 to half the tick rate
     double impact_decay = 0.02;       // in which it falls to 1 / e (unit: seconds), > 0
+    // Of a body whose surface has broken, by the length within it: what a needle's shaft sticks with (unit:
+    // newtons per meter), >= 0.
+    double shaft_friction = 0.0;
 };
 
 // What one surface of a mesh feels like.

@@ -16,7 +16,7 @@ inline bool same_values(const TouchMaterial& a, const TouchMaterial& b) {
                         m.texture_size, m.texture_depth, m.magnet_force, m.magnet_range, m.viscosity,
                         m.stick_slip_stiffness, m.stick_slip_force, m.vibration_force, m.vibration_frequency,
                         m.pop_through_force, m.impact_strength, m.impact_frequency, m.impact_decay,
-                        m.stribeck_speed, m.stiffening, m.stiffening_depth);
+                        m.stribeck_speed, m.stiffening, m.stiffening_depth, m.shaft_friction);
     };
     return values(a) == values(b);
 }

@@ -46,14 +46,14 @@ Overlap overlap_with(const TouchShape& shape, const Pose& pose, const Vec3& cent
     return overlap;
 }
 
-bool PassedBodies::pass(int body, PassedBecause reason) {
+bool PassedBodies::pass(int body, PassedBecause reason, const BrokenAt& broken) {
     if (contains(body)) {
         return true;
     }
     if (count_ == capacity) {
         return false;
     }
-    passed_[count_++] = {body, reason, reason != PassedBecause::broken};
+    passed_[count_++] = {body, reason, reason != PassedBecause::broken, broken};
     return true;
 }
 
@@ -66,8 +66,8 @@ void PassedBodies::forget(int body) {
     }
 }
 
-// A surface that broke is whole again once the sphere has been in it and is out, or has drawn back from it:
-// on either side, where both can be touched.
+// A surface that broke is whole again once the sphere has been in it and is out, or has drawn back from it,
+// on the side where it broke.
 void PassedBodies::update(const TouchScene& scene, const Vec3& center, double room, WorkBudget& work) {
     for (std::size_t i = 0; i < count_;) {
         Passed& passed = passed_[i];
@@ -81,7 +81,11 @@ void PassedBodies::update(const TouchScene& scene, const Vec3& center, double ro
             const double within = room * (1.0 - 1e-6);
             const Overlap at = overlap_with(shape, body.previous, center, 2.0 * room, within, insides, work);
             passed.entered = passed.entered || at.inside || at.distance < within;
-            clear = !at.inside && at.known && at.distance >= (passed.entered ? room : 1.5 * room);
+            const Vec3 from_break = to_local(body.previous, center) - passed.broken.point;
+            const bool is_before =
+                passed.reason != PassedBecause::broken || glm::dot(from_break, passed.broken.normal) > 0.0;
+            clear =
+                is_before && !at.inside && at.known && at.distance >= (passed.entered ? room : 1.5 * room);
         }
         if (clear) {
             passed = passed_[--count_];

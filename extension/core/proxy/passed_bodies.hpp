@@ -1,6 +1,7 @@
 // Bodies that the proxy goes through for now: one whose surface broke under the hand, and one that stands
 // where the proxy is, because it appeared there, was put there, grew, or left it no room between itself and
-// others. Such a body is not touched until the sphere is clear of it again. So touch always begins with a
+// others. Such a body is not touched until the sphere is clear of it again; one that broke, until the sphere
+// is out on the side where it went in, since a shaft is through it until then. So touch always begins with a
 // sphere that overlaps nothing, and without a kick.
 #pragma once
 
@@ -15,7 +16,7 @@
 namespace tactus {
 
 enum class PassedBecause : std::uint8_t {
-    broken,    // its surface gave way: it holds again on the other side as well
+    broken,    // its surface gave way: it is open until the sphere has come out as it went in
     overlaps,  // it stands where the sphere is: the sphere has to be let out first
     squeezes,  // likewise, and moving bodies have left no room
 };
@@ -37,12 +38,27 @@ enum class Insides { of_solids, of_one_sided, of_all };
 Overlap overlap_with(const TouchShape& shape, const Pose& pose, const Vec3& center, double far, double enough,
                      Insides insides, WorkBudget& work);
 
+// Where a surface gave way, in its body's frame.
+struct BrokenAt {
+    Vec3 point{0.0};             // (unit: meters)
+    Vec3 normal{0.0, 1.0, 0.0};  // unit, out of the body
+    double force = 0.0;          // that broke it (unit: newtons)
+};
+
 class PassedBodies {
 public:
     static constexpr std::size_t capacity = 8;
 
+    struct Passed {
+        int body = -1;
+        PassedBecause reason = PassedBecause::overlaps;
+        bool entered = false;  // the sphere has been within its surface since
+        BrokenAt broken{};     // of that reason alone
+    };
+
     // False where there are too many already.
-    bool pass(int body, PassedBecause reason);
+    bool pass(int body, PassedBecause reason, const BrokenAt& broken = {});
+    std::span<const Passed> all() const { return {passed_.data(), count_}; }
     bool contains(int body) const {
         return std::ranges::any_of(all(), [&](const Passed& p) { return p.body == body; });
     }
@@ -59,14 +75,6 @@ public:
     void forget(int body);
 
 private:
-    struct Passed {
-        int body;
-        PassedBecause reason;
-        bool entered;  // the sphere has been within its surface since
-    };
-
-    std::span<const Passed> all() const { return {passed_.data(), count_}; }
-
     std::array<Passed, capacity> passed_{};
     std::size_t count_ = 0;
 };

@@ -40,9 +40,9 @@ void Proxy::recall(const ProxyMemory& memory) {
     hold_.crowd.recall(memory.crowd);
 }
 
-bool Proxy::pass_through(int body) {
+bool Proxy::pass_through(int body, const BrokenAt& broken) {
     sphere_.contacts_hold = false;
-    return passed().pass(body, PassedBecause::broken);
+    return passed().pass(body, PassedBecause::broken, broken);
 }
 
 void Proxy::restart() {

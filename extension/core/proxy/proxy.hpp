@@ -64,9 +64,13 @@ public:
     void recall(const ProxyMemory& memory);
     // Whether dynamic or static friction holds it next, where another proxy knows.
     void set_sliding(bool sliding) { hold_.friction.set_sliding(sliding); }
-    // The surface of a body breaks: the proxy goes through it and is held back again once it is clear of it.
-    // False where it goes through too many bodies already.
-    bool pass_through(int body);
+    // The surface of a body breaks: the proxy goes through it and is held back again once it is out of it on
+    // this side. False where it goes through too many bodies already.
+    bool pass_through(int body, const BrokenAt& broken);
+    // Bodies that it goes through for now, for whatever reason.
+    std::span<const PassedBodies::Passed> passed_bodies() const {
+        return sphere_.surroundings.passed().all();
+    }
 
     // As if just started: present again as soon as the hand is in a free place.
     void restart();
