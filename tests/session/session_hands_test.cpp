@@ -1,6 +1,7 @@
 // What a session makes of devices: the hand, the workspace it is in, the force it is given.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <iterator>
@@ -331,6 +332,45 @@ TEST(Session, AnArmIsCarriedWhereAForceMayBeGiven) {
     rig.session.set_workspace(rig.hand, workspace);
     rig.tick();
     EXPECT_EQ(rig.device.force, Vec3(0.0)) << "the clutch is held";
+}
+
+TEST(Session, AnArmThatPressesIsCarriedWithinTheLimitOfBoth) {
+    SessionRig rig;
+    rig.add(ground());
+    rig.device.can.feels = true;
+    rig.device.can.weight = 2.0;
+    Workspace workspace;
+    workspace.force_limit = 3.0;
+    rig.session.set_workspace(rig.hand, workspace);
+    rig.device.position = {0.0, 0.1, 0.0};
+    rig.ticks(600);
+    for (int i = 0; i < 60; ++i) {
+        rig.draw(rig.device.position - Vec3(0.0, 2e-3, 0.0), 10);
+        EXPECT_LE(glm::length(rig.device.force), 3.0 + 1e-12);
+    }
+    EXPECT_NEAR(rig.device.force.y, 3.0, 1e-9);
+}
+
+TEST(Session, AnArmIsNotCarriedWhereItsReadingMakesNoSense) {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    const auto lies = std::to_array<void (*)(HeldDevice&)>({
+        [](HeldDevice& device) { device.position.y = nan; },
+        [](HeldDevice& device) { device.velocity.x = nan; },
+        [](HeldDevice& device) { device.rotation.w = nan; },
+        [](HeldDevice& device) { device.position.x += 1.0; },
+        [](HeldDevice& device) { device.connected = false; },
+    });
+    for (const auto& lie : lies) {
+        SessionRig rig;
+        rig.device.can.feels = true;
+        rig.device.can.weight = 3.0;
+        rig.device.can.max_speed = 5.0;
+        rig.ticks(600);
+        ASSERT_EQ(rig.device.force, Vec3(0.0, 3.0, 0.0));
+        lie(rig.device);
+        rig.tick();
+        EXPECT_EQ(rig.device.force, Vec3(0.0)) << &lie - lies.data();
+    }
 }
 
 TEST(Session, AWorkspaceTurnsPositionsInAndForcesBack) {
