@@ -45,7 +45,7 @@ func _sees(sensor: HapticDepthSensor) -> bool:
 
 ## Until it has seen so many more images: how long that takes is the machine's to decide.
 func _images(sensor: HapticDepthSensor, count: int) -> void:
-	var last := sensor.get_statistics().frames + count
+	var last: int = sensor.get_statistics().frames + count
 	check(
 		await until(func() -> bool: return sensor.get_statistics().frames >= last, 60.0),
 		"of %d images the last is not seen; it says: %s" % [count, sensor.get_state_text()]
