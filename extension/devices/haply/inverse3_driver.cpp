@@ -172,7 +172,11 @@ Driver::Exchange Inverse3Driver::exchange(ForceSlot& forces, Nanoseconds until, 
     }
     for (;;) {
         const std::array files{socket_.file()};
-        forces.wait_for_files(sent_ != Vec3(0.0) ? std::min(until, forces.end() + 1) : until, files);
+        if (sent_ != Vec3(0.0)) {
+            forces.wait_for_write(std::min(until, forces.end() + 1), files);
+        } else {
+            forces.wait_for_files(until, files);
+        }
         const int came = socket_.receive(text_, 0);
         if (socket_.is_gone()) {
             return Exchange::lost;
@@ -194,12 +198,17 @@ Driver::Exchange Inverse3Driver::exchange(ForceSlot& forces, Nanoseconds until, 
             }
             return Exchange::reading;
         }
-        // A newer force of the loop waits for the next state. That none is left does not: it is the answer to
-        // the next state, since one message more than there are states would wait there, and all behind it;
-        // one less, and the service waits. Two states may come at once where the first had its answer.
-        if (sent_ != Vec3(0.0) && now > forces.end() && forces.living(now) == Vec3(0.0)) {
+        // A newer force of the loop waits for the next state. That none is left does not, since the loop has
+        // written so or the force has ended: it is the answer to the next state. One message more than there
+        // are states would wait there, and all behind it; one less, and the service waits. Two states may
+        // come at once where the first had its answer.
+        const bool may_be_none = sent_ != Vec3(0.0) && (forces.is_written() || now > forces.end());
+        if (may_be_none && forces.living(now) == Vec3(0.0)) {
             send(Vec3(0.0));
             --owed_;
+            if (forces.is_alive()) {
+                forces.given(monotonic_now());
+            }
         }
         if (now >= until) {
             return Exchange::nothing;

@@ -71,13 +71,17 @@ public:
         const Nanoseconds now = monotonic_now();
         forces_.write({force, Vec3(0.0), now + longest_wait, 0, now + to_look - one_tick});
     }
-    bool next_reading() {
-        Driver::Exchange done = Driver::Exchange::nothing;
-        for (int i = 0; i < 100 && done != Driver::Exchange::reading; ++i) {
-            done = driver_.exchange(forces_, monotonic_now() + 50 * one_tick, reading_);
-            forces_.heard(monotonic_now(), monotonic_now() + longest_wait);
-        }
+    bool reads_at_once() {
+        const Driver::Exchange done = driver_.exchange(forces_, monotonic_now() + 50 * one_tick, reading_);
+        forces_.heard(monotonic_now(), monotonic_now() + longest_wait);
         return done == Driver::Exchange::reading;
+    }
+    bool next_reading() {
+        int tries = 100;
+        while (!reads_at_once() && tries > 0) {
+            --tries;
+        }
+        return tries > 0;
     }
 
 private:
@@ -114,6 +118,23 @@ TEST(Inverse3, AStateIsAnsweredAtOnceWhereTheLoopLooksLater) {
         ASSERT_TRUE(driver.next_reading()) << "it has had its answer without a write";
         EXPECT_LT(service.waited(), 3);
     }
+}
+
+// It waited for the next state, by which the hand was pushed for up to a period of the service.
+TEST(Inverse3, AForceThatTheLoopTakesAwayWaitsForNoState) {
+    NEEDS_LIBRARIES();
+    HaplyService service;
+    InverseExchanges driver(service);
+    ASSERT_TRUE(driver.next_reading());
+    driver.write({1.0, 0.0, 0.0}, 0);
+    ASSERT_TRUE(driver.next_reading());
+    ASSERT_TRUE(wait_until([&] { return service.force() == "1.0 0.0 0.0"; }));
+    service.lie(stand_ins::Field::position, stand_ins::Lie::is_silent);
+    ASSERT_TRUE(wait_until([&] { return !driver.reads_at_once(); }));
+    EXPECT_EQ(service.force(), "1.0 0.0 0.0");
+    driver.write(Vec3(0.0), 0);
+    driver.reads_at_once();
+    EXPECT_TRUE(wait_until([&] { return service.force() == "0.0 0.0 0.0"; }));
 }
 
 // The service takes one message for each state: each one more was an answer late, with all forces behind it.
