@@ -108,14 +108,16 @@ void RobotSide::play(SessionLoop& loop, std::size_t index, const SessionLoop::Pr
         pointer.observer.reset();
     }
     // Forces keep their size in the scene, ways do not.
-    pointer.contact =
-        pointer.observer.observe(body, loop.given_force(slot), slot.hand_velocity / scale, seconds_);
+    const Vec3 drive = loop.given_force(slot);
+    pointer.contact = pointer.observer.observe(body, drive, slot.hand_velocity / scale, seconds_);
+    pointer.coupled = -drive;
     touch_.feel(loop, index, {slot.hand, pointer.contact, slot.description.settings.radius, seconds_});
     statistics_.sample = std::max(statistics_.sample, pointer.played.sequence);
     const Wall coupling = coupling_of(robot);
     const Vec3 before = pointer.target;
     pointer.target = next_target(before, hand_of(pointer, slot, coupling), settings().stand_in.speed,
                                  robot.workspace.pose.position, robot.capabilities.radius * scale, seconds_);
+    pointer.passivity.went(pointer.target);
     pointer.velocity = (pointer.target - before) / seconds_;
     pointer.coupling = coupling;
 }
@@ -129,7 +131,8 @@ Vec3 RobotSide::hand_of(Pointer& pointer, const SessionLoop::ProxySlot& slot, co
         in.sample = played.sequence;
         in.hand = to_parent(frame, played.position);
         in.force = direction_to_parent(frame, played.force);
-        in.own_force = pointer.contact;
+        in.own_force = port_force(pointer);
+        in.is_free = glm::length(pointer.contact) <= least_contact;
         in.seconds = seconds_;
         in.is_exact = pointer.playing == Playing::exact || pointer.playing == Playing::guessed;
         return pointer.passivity.hand(settings().passivity, settings().passive, in);
@@ -194,11 +197,23 @@ void RobotSide::report(SessionLoop& loop, Nanoseconds now) {
     channel_.end_tick(statistics_);
 }
 
+// The link ends at the target: it gives the coupling energy, and the coupling the robot no more. In the time
+// domain nothing would pay for the robot's friction in free space: there, contact alone counts.
+Vec3 RobotSide::port_force(const Pointer& pointer) const {
+    return settings().passivity == Passivity::time_domain ? pointer.contact : pointer.coupled;
+}
+
+// A wave is made of the force at the port.
+Vec3 RobotSide::told_force(const Pointer& pointer) const {
+    return settings().passivity == Passivity::wave_variables ? pointer.coupled : pointer.contact;
+}
+
 void RobotSide::send_forces(SessionLoop& loop, Nanoseconds now) {
     ForceSamples message;
     for (std::size_t i = 0; i < max_proxies && message.count < ForceSamples::max_count; ++i) {
         const Pointer& pointer = pointers_[i];
-        const bool due = force_needs_sending(settings().deadband, pointer.force_sent, pointer.contact) ||
+        const Vec3 force = told_force(pointer);
+        const bool due = force_needs_sending(settings().deadband, pointer.force_sent, force) ||
                          now - pointer.force_sent_at >= settings().deadband.longest_silence;
         if (!pointer.holds || !due) {
             continue;
@@ -207,8 +222,8 @@ void RobotSide::send_forces(SessionLoop& loop, Nanoseconds now) {
         sample.pointer = static_cast<std::uint16_t>(i);
         sample.true_at = channel_.link().local_time(now);
         sample.newest_operator_sample = pointer.played.sequence;
-        sample.force = glm::clamp(direction_to_local(settings().frame, pointer.contact),
-                                  -plausible::max_force, plausible::max_force);
+        sample.force = glm::clamp(direction_to_local(settings().frame, force), -plausible::max_force,
+                                  plausible::max_force);
         sample.proxy = to_local(settings().frame, loop.proxy(i).hand);
         sample.object = no_object;
         sample.taken = told_energy(pointer.passivity.taken());
@@ -218,7 +233,7 @@ void RobotSide::send_forces(SessionLoop& loop, Nanoseconds now) {
     }
     for (std::size_t i = 0; i < message.count; ++i) {
         Pointer& pointer = pointers_[message.samples[i].pointer];
-        pointer.force_sent = pointer.contact;
+        pointer.force_sent = told_force(pointer);
         pointer.force_sent_at = now;
     }
 }

@@ -42,6 +42,7 @@ private:
         Vec3 velocity{0.0};  // of the target (unit: meters per second)
         Wall coupling;       // of the robot to the target
         Vec3 contact{0.0};   // on the robot, in this side's scene (unit: newtons)
+        Vec3 coupled{0.0};   // by the coupling, on the target, one tick ago (unit: newtons)
         Vec3 had_hand{0.0};  // one tick ago (unit: meters)
         Vec3 force_sent{0.0};
         Nanoseconds force_sent_at = 0;
@@ -78,6 +79,8 @@ private:
     Wall coupling_of(const RobotView& robot) const;
     void play(SessionLoop& loop, std::size_t index, const SessionLoop::ProxySlot& slot);
     Vec3 hand_of(Pointer& pointer, const SessionLoop::ProxySlot& slot, const Wall& coupling) const;
+    Vec3 port_force(const Pointer& pointer) const;
+    Vec3 told_force(const Pointer& pointer) const;
     void send_forces(SessionLoop& loop, Nanoseconds now);
 
     // --- robot_tools.cpp

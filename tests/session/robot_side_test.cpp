@@ -58,6 +58,18 @@ TEST(RobotSide, TwoRunsAreTheSameToTheBit) {
     EXPECT_EQ(run_teleop(scene(), robot_case(0.05)), run_teleop(scene(), robot_case(0.05)));
 }
 
+// The robot's friction, and what its observer does not see, take part: both ports make no energy all the
+// same.
+TEST(RobotSide, WavesMakeNoEnergyThroughARobot) {
+    for (const double delay : {0.0, 0.02, 0.05, 0.1, 0.2}) {
+        TeleopCase one = robot_case(delay);
+        one.settings.passivity = Passivity::wave_variables;
+        TeleopFigures figures = run_teleop(scene(), one);
+        EXPECT_LT(figures["link_energy_created_J"], 1e-4) << delay;
+        EXPECT_LT(figures["hand_position_error_rms_mm"], 6.5) << delay << ": it follows";
+    }
+}
+
 // Scenario 5: what a camera has found at the far side makes the operator's model, and follows what the camera
 // sees, though nothing is simulated there.
 TEST(RobotSide, TellsWhatIsKnownOfItsPlace) {

@@ -108,6 +108,7 @@ def run(given: dict[str, str], output: Path) -> dict[str, object]:
 
 def two_port(description: dict, delays: list[str], output: Path) -> dict[str, object]:
     over_store: dict[str, float] = {}
+    at_rest: dict[str, object] = {}
     for place in (*SCENES, "robot"):
         scene = "static" if place == "robot" else place
         stores = {}
@@ -123,12 +124,14 @@ def two_port(description: dict, delays: list[str], output: Path) -> dict[str, ob
                         stores[name] = max(LEAST_STORE, sum(float(str(keys.get(key, usual))) for key, usual in store.items()))
         found = teleop_runs.run(description[scene]["scene"], asked, output)
         over_store |= {name: figures["link_energy_created_J"] / stores[name] for name, figures in found.items()}
+        if place == "static":
+            at_rest = {f"passivity.{name}.settled_force_share": one["settled_force_share"] for name, one in found.items()}
     worst = max(over_store, key=lambda name: over_store[name])
     return {
         "passivity.two_port_energy_created_over_store_max": over_store[worst],
         "passivity.two_port_worst_case": worst,
         "passivity.two_port_cases": len(over_store),
-    } | {f"passivity.{name}.energy_created_over_store": value for name, value in over_store.items()}
+    } | {f"passivity.{name}.energy_created_over_store": value for name, value in over_store.items()} | at_rest
 
 
 def of_case(figures: dict[str, float]) -> dict[str, float]:

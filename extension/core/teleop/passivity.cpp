@@ -220,9 +220,15 @@ Vec3 FarPassivity::wave_way(const PassivitySettings& settings, const In& in, std
     wave_energy_ -= per_square * glm::dot(wave, wave);
     // b / (b + d) = (1 + r) / 2.
     Vec3 way = 0.5 * (1.0 + free_reflection) * (wave + in.own_force * (in.seconds / b));
-    if (in.own_force == Vec3(0.0)) {
-        // Nothing is pressed: where it has drifted to costs nothing to put right.
-        way += (in.hand - own_ - way) * std::min(1.0, settings.drift_rate * in.seconds);
+    const double damping = b * (1.0 - free_reflection) / (1.0 + free_reflection);  // d
+    damped_ += damping * glm::dot(way, way) / in.seconds;
+    if (in.is_free || in.own_force == Vec3(0.0)) {
+        // What the way back costs is paid by what d has taken.
+        Vec3 back = (in.hand - own_ - way) * std::min(1.0, settings.drift_rate * in.seconds);
+        const double cost = -glm::dot(in.own_force, back);
+        back *= cost > damped_ ? damped_ / cost : 1.0;
+        damped_ -= std::clamp(cost, 0.0, damped_);
+        way += back;
     }
     return way;
 }

@@ -1,4 +1,4 @@
-// Traditional touch that cannot make energy, whatever the delay: the schemes of the field, at both ends.
+// Direct teleoperation that bounds the energy it generates: the schemes of the field, at both ends.
 //
 // Both ends are ports: the operator's hand gives the link a velocity and is given a force; the far hand is
 // moved by the link and feels the environment's force h. The work at a port is that of the force that was
@@ -134,6 +134,8 @@ public:
         double seconds = 0.001;
         // It is the operator's, and nothing in between: what that has taken in since the last one is known.
         bool is_exact = true;
+        // Wave variables: it touches nothing, though its own force may not be 0.
+        bool is_free = false;
     };
 
     // Where the far hand goes in this tick (unit: meters).
@@ -164,6 +166,7 @@ private:
     double tank_ = 0.0;
     double taken_ = 0.0;
     double wave_energy_ = 0.0;  // that has come and has not been played (unit: joules)
+    double damped_ = 0.0;       // wave variables: by d, and not spent on coming back (unit: joules)
     bool was_exact_ = false;
 };
 
