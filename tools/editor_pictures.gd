@@ -9,6 +9,7 @@ const SIZE := Vector2i(1440, 900)
 const TALL := Vector2i(1440, 1180)
 const PLAYED := "res://gallery/static_testbed/static_testbed.tscn"
 const PLAYED_SECONDS := 12.0
+const BUTTON_WARNING := 5  # of the editor's tree of a scene
 const FILMED := "res://gallery/still_life/still_life.tscn"
 const FILM_SIZE := Vector2i(1152, 648)
 const FILM_SECONDS := 600.0
@@ -116,12 +117,13 @@ func _node_alone(node: Node3D, called: String, from: Vector3, at := Vector3.ZERO
 	await _save(called)
 
 
-## What cannot be touched is named beside it.
+## What cannot be touched is named beside it; a click on its sign says why.
 func _warnings() -> void:
 	var root := Node3D.new()
 	root.name = "Warnings"
 	var world := HapticWorld.new()
 	world.name = "HapticWorld"
+	world.authority = HapticWorld.AUTHORITY_HAPTIC
 	root.add_child(world)
 	for node: Node in [Area3D.new(), StaticBody3D.new(), GridMap.new(), ProxyPointer.new()]:
 		node.name = node.get_class()
@@ -131,7 +133,24 @@ func _warnings() -> void:
 	await _open_new(root, "warnings")
 	await _select(EditorInterface.get_edited_scene_root().get_node("HapticWorld"))
 	await _frames(60)
-	await _save("warnings")
+	_click_warning("HapticWorld")
+	await _frames(60)
+	await _save_screen("warnings")
+	for dialog: Node in get_tree().root.find_children("*", "AcceptDialog", true, false):
+		(dialog as AcceptDialog).hide()
+
+
+## In the tree of the scene.
+func _click_warning(called: String) -> void:
+	for tree: Tree in EditorInterface.get_base_control().find_children("*", "Tree", true, false):
+		var item := tree.get_root()
+		while item != null:
+			if item.get_text(0) == called and item.get_button_by_id(0, BUTTON_WARNING) >= 0:
+				tree.button_clicked.emit(item, 0, BUTTON_WARNING, MOUSE_BUTTON_LEFT)
+				return
+			item = item.get_next_in_tree()
+	_has_failed = true
+	printerr("%s has no warning" % called)
 
 
 func _help() -> void:
