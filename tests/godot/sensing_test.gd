@@ -136,7 +136,7 @@ func test_objects_are_found_moved_and_lost() -> void:
 	check_equal(told.object_found, 1, "objects found")
 	for _step in 30:
 		bracket.position.x += 0.002
-		await _images(sensor, 2)
+		await _images(sensor, 1)
 	check(
 		await until(near.bind(bracket.global_position), 60.0),
 		"moved to %s, it is seen as %s" % [bracket.global_position, _named(sensor, "bracket")]
@@ -158,7 +158,7 @@ func test_what_was_recorded_is_seen_again() -> void:
 	var is_found := func(by: HapticDepthSensor) -> bool: return _named(by, "bracket").size() > 0
 	check(await until(is_found.bind(sensor), 60.0), "it says: %s" % sensor.get_state_text())
 	var place: Transform3D = _named(sensor, "bracket").transform
-	await _images(sensor, 10)
+	await _images(sensor, 5)
 	sensor.free()
 	get_node("Table").free()
 	sensor = _sensor(self)
@@ -393,7 +393,7 @@ func test_in_real_time_a_cloud_is_touched_too_and_lifts_the_hand() -> void:
 	var lowest := 1.0
 	for _step in 40:
 		cube.position.y += 0.001
-		await _images(sensor, 2)
+		await _images(sensor, 1)
 		lowest = minf(lowest, _height_over(proxy, cube))
 	check(lowest > -0.02, "the hand was passed through: %.1f mm beneath its top" % [-1e3 * lowest])
 	check(await until(rests, 60.0), "lifted by 4 cm, the hand is at %s" % proxy.get_proxy_position())
