@@ -119,13 +119,14 @@ def dynamic_losses(summary: Summary) -> Rows:
 CLOSED = (
     *(f"{delay}ms.{key}" for key in ("settled_contact_share", "settled_force_error_N", "force_error_mean_N") for delay in (25, 100, 500)),
 )  # fmt: skip
+CLOSED_WRONG = {"mmt_wrong": "default, ground 5 mm too high", "never_corrected_wrong": "never corrected, ground 5 mm too high"}
 MOST = ("energy_created_J", "energy_at_hand_most_J", "link_energy_created_J", "restless_mm_s")
 
 
 def closed_loop(scene: str) -> Callable[[Summary], Rows]:
     def rows(summary: Summary) -> Rows:
         found = []
-        for way, label in LABELS.items():
+        for way, label in (LABELS | (CLOSED_WRONG if scene == "static" else {})).items():
             name = f"{scene}.{'mmt' if way == rivals.DEFAULT else way}"
             keys = [f"{name}_{key}" for key in CLOSED]
             # A way that has lost the contact has no force error there.

@@ -5,7 +5,9 @@ local model (what a scripted path leaves open: thesis 5.3, inference 5).
 
 In the static scene the arm presses onto the ground and holds; in the dynamic one it pushes a box, whose model is 20 %
 too heavy and 30 % too slippery, and holds. Cases are SCENE.local and SCENE.WAY_DELAYms, where WAY is mmt (the default),
-or one of measuring/rivals.py; with _right after it, where there is a model, the model is right.
+or one of measuring/rivals.py; with _right after it, where there is a model, the model is right. In the static scene the model is
+right, since the link describes it before it is touched, so that its errors are 0; mmt_wrong and never_corrected_wrong have the
+ground 5 mm too high, corrected from the first contact on or never.
 
 energy_created_J is the most that the hand has been given on balance at any moment of a contact, energy_at_hand_most_J the
 same since the start, link_energy_created_J that of hand and far side together. settled_contact_share is the share of the
@@ -69,6 +71,8 @@ def common(description: dict, scene: str) -> teleop_runs.Case:
 def cases(description: dict, scene: str, delays: list[str], output: Path) -> list[teleop_runs.Case]:
     wrong = teleop_runs.wrong(description[scene].get("wrong", {}))
     ways = {name_of(scheme): rivals.with_model(scheme, wrong) for scheme in rivals.SCHEMES}
+    if mistaken := teleop_runs.wrong(description[scene].get("mistaken", {})):
+        ways |= {"mmt_wrong": mistaken | {"correct_from_touch": 1}, "never_corrected_wrong": mistaken | rivals.MODELS["never_corrected"]}
     ways |= {f"{name_of(scheme)}_right": keys for scheme, keys in rivals.MODELS.items() if scheme != "never_corrected"}
     return [
         {

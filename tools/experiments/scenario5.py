@@ -1,6 +1,7 @@
 """Scenario 5: a camera makes the operator's model, and a robot follows the hand in a place of its own (thesis 4.4.1).
 
     ./run experiment scenario5 [--seconds=16]
+    ./run experiment scenario5 --robot=mujoco [--seconds=16] [--delay=0,25,50,100,200]
 
 --seconds  of the hand's way, from when the model has all that is there
 
@@ -15,6 +16,12 @@ SCENE.force_explained_N                 what the error of place alone makes of i
 SCENE.force_error_over_pose_explained   the one over the other
 SCENE.robot_touches_share               of the time in which the hand touches, in which the robot does, too
 SCENE.frame_ms_median                   of the camera's images, from arrival to objects
+
+--robot=mujoco  the same scenario in a place that MuJoCo simulates, with an arm of seven joints, in virtual time: its depth images
+           come through OpenNI2's driver and make the local model (measuring/mujoco_seen_place.py). The operator's arm presses a cube and a
+           table. mujoco_model.DELAYms.*; beside it direct teleoperation in that place (scenario 3), mujoco_direct.DELAYms.* and, with
+           passivity control at both ends, mujoco_direct_time_domain.DELAYms.*. Figures as of scenario3 --robot=mujoco, and
+           model_place_error_median_mm, _p95_mm of the cube.
 """
 
 import json
@@ -24,10 +31,11 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 
-from measuring import options
+from measuring import options, robot_runs, teleop_processes, teleop_runs
 from project import FOLDER
 from setup import godot
 
@@ -43,10 +51,14 @@ Lines = list[dict]
 @dataclass(frozen=True)
 class Settings:
     seconds: float = options.seconds(16.0, least=1.0, most=3600)
+    robot: Literal["emulated", "mujoco"] = "emulated"
+    delay: tuple[float, ...] = options.numbers((0, 25, 50, 100, 200), "ms", most=options.LONGEST_DELAY_MS)
 
 
 def run(given: dict[str, str], output: Path) -> dict[str, object]:
     settings = options.parse(Settings, given)
+    if settings.robot == "mujoco":
+        return in_mujoco(settings)
     output.mkdir(parents=True, exist_ok=True)
     summary: dict[str, object] = {}
     for name, moves in {"static": 0, "dynamic": 1}.items():
@@ -54,6 +66,37 @@ def run(given: dict[str, str], output: Path) -> dict[str, object]:
         (output / f"{name}.json").write_text(json.dumps(said))
         draw(said, settings.seconds, name, output)
         summary |= {f"{name}.{key}": value for key, value in figures(said, settings.seconds).items()}
+    return summary
+
+
+# The place in MuJoCo: a cube on a table, whose mass and friction are not the library's.
+TABLE = {"kind": "box", "size": [0.5, 0.01, 0.4], "at": [0.0, -0.01, 0.0], "friction": 0.3}
+CUBE = {"kind": "box", "name": "cube", "size": [0.05] * 3, "at": [-0.1, 0.05, 0.0], "turn": 0.4, "mass": 0.8, "friction": 0.3}
+WAY = "res://paths/seen_path.tres"
+
+
+def mujoco_cases(settings: Settings) -> dict[str, list[dict]]:
+    """By the kind of the robot. Passivity as MMTTuning has it: 0 none, 2 time domain."""
+    arm = {f"device.{name}": value for name, value in teleop_runs.description("scenario3")["arm"].items()}
+    operator = {"way": WAY, "device.driver": teleop_processes.SIMULATED_ARM, "device.force_limit": 10, **arm}
+    common = {"seconds": settings.seconds, "bodies": [TABLE, CUBE | {"on": TABLE["size"]}], "operator": operator}
+    ways = {"mujoco_direct": ("mujoco", 3, 0), "mujoco_direct_time_domain": ("mujoco", 3, 2), "mujoco_model": ("mujoco_seen", 5, 0)}
+    found: dict[str, list[dict]] = {}
+    for way, (kind, scenario, passivity) in ways.items():
+        found.setdefault(kind, []).extend(
+            {"name": f"{way}.{delay:g}ms", "scenario": scenario, "passivity": passivity, "delay_ms": delay, **common} for delay in settings.delay
+        )
+    return found
+
+
+def in_mujoco(settings: Settings) -> dict[str, object]:
+    if advice := robot_runs.advice("mujoco"):
+        print(advice)
+        return {"skipped": advice}
+    summary: dict[str, object] = {}
+    for kind, cases in mujoco_cases(settings).items():
+        for case, one in robot_runs.run(kind, cases).items():
+            summary |= {f"{case}.{key}": value for key, value in one.items()}
     return summary
 
 

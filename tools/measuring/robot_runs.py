@@ -1,4 +1,4 @@
-"""Cases of scenario 3 with a robot that a simulator made by others plays (robot_place.py), two at a time."""
+"""Cases of scenarios 3 and 5 with a robot that a simulator made by others plays (robot_place.py), two at a time."""
 
 import json
 import os
@@ -22,6 +22,7 @@ class Kind:
 
 KINDS = {
     "mujoco": Kind("MuJoCo", ("mujoco",), "mujoco_place.py"),
+    "mujoco_seen": Kind("MuJoCo", ("mujoco",), "mujoco_seen_place.py"),
     "franka": Kind("libfranka and its simulator", ("franka", "franka_simulator"), "franka_place.py"),
 }
 

@@ -96,7 +96,7 @@ bool is_sound(const SceneHeader& header, std::size_t bytes) {
            header.height >= 16 && header.width <= 1280 && header.height <= 1024 &&
            header.field_of_view > 0.1 && header.field_of_view < 3.0 && header.rate >= 0.0 &&
            header.rate <= 240.0 && std::abs(header.depth_error) < 0.5 && header.noise >= 0.0 &&
-           header.noise <= 100.0;
+           header.noise <= 100.0 && header.has_image <= 1;
 }
 
 std::string path_of(const std::string& uri) {
@@ -164,6 +164,12 @@ SceneReader::SceneReader(const std::string& uri) {
                header_->depth_error, header_->noise,  header_->seed};
     Cursor cursor(file_.bytes());
     cursor.take(aligned(sizeof(SceneHeader)));
+    if (header_->has_image != 0) {
+        const std::size_t pixels =
+            static_cast<std::size_t>(camera_.width) * static_cast<std::size_t>(camera_.height);
+        const std::size_t image_bytes = pixels * sizeof(float);
+        image_ = {reinterpret_cast<const float*>(cursor.take(aligned(image_bytes)).data()), pixels};
+    }
     for (std::uint32_t i = 0; i < header_->mesh_count; ++i) {
         meshes_.push_back(read_mesh(cursor));
     }
@@ -189,6 +195,7 @@ bool SceneReader::read(SceneState& state) const {
                 state.bodies.push_back({shown.mesh, pose_of(shown.pose)});
             }
         }
+        state.image.assign(image_.begin(), image_.end());
         std::atomic_thread_fence(std::memory_order_acquire);
         if (header_->sequence.load(std::memory_order_relaxed) == before) {
             return true;

@@ -1,12 +1,18 @@
 // The scene that a synthetic camera looks at, in a file that whoever has the scene writes and the camera's
 // driver reads while it is being written. Both map it into their memory.
 //
-// Layout: SceneHeader, then for every mesh a MeshHeader, its vertices (3 doubles each) and its triangles (3
-// indices each). All but what is marked "changes" is written before the file has its name. What changes is
-// guarded by `sequence`: odd while it is written, another even number afterwards.
+// Layout: SceneHeader, with `has_image` an image, then for every mesh a MeshHeader, its vertices (3 doubles
+// each) and its triangles (3 indices each). All but what is marked "changes" is written before the file has
+// its name. What changes is guarded by `sequence`: odd while it is written, another even number afterwards.
+//
+// An image is what another renderer has drawn: for each pixel, by rows from the top, its exact depth along
+// the camera's axis (floats, unit: meters); what is not above 0 is nothing. It changes, and is seen in place
+// of the bodies. tools/measuring/depth_file.py writes such files.
 #pragma once
 
+#include <array>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -39,7 +45,7 @@ enum class Plug : std::uint32_t {
 };
 
 struct SceneHeader {
-    static constexpr std::uint64_t expected_magic = 0x31656e6563537354;  // "TsScene1"
+    static constexpr std::uint64_t expected_magic = 0x32656e6563537354;  // "TsScene2"
 
     std::uint64_t magic = expected_magic;
     std::uint64_t bytes = 0;  // of the whole file
@@ -47,17 +53,20 @@ struct SceneHeader {
     double field_of_view = 0.0, rate = 0.0, depth_error = 0.0, noise = 0.0;
     std::uint64_t seed = 0;
     std::uint32_t mesh_count = 0;
+    std::uint32_t has_image = 0;  // 0 or 1
 
     // changes:
     std::atomic<std::uint32_t> sequence{0};
     std::uint32_t shown = 0;  // how often show() has been called
     Plug plug = Plug::in;
     std::uint32_t body_count = 0;
-    std::uint32_t padding = 0;
     std::uint64_t time = 0;  // (unit: microseconds)
     PlainPose camera;
     PlainBody bodies[max_shown_bodies];
 };
+// As programs in other languages have it.
+static_assert(offsetof(SceneHeader, sequence) == 72 && offsetof(SceneHeader, time) == 88);
+static_assert(sizeof(SceneHeader) == 152 + max_shown_bodies * sizeof(PlainBody));
 
 struct MeshHeader {
     std::uint32_t vertex_count = 0;
@@ -71,6 +80,7 @@ struct SceneState {
     std::uint64_t time = 0;  // (unit: microseconds)
     Pose camera;
     std::vector<ShownBody> bodies;
+    std::vector<float> image;  // empty: the bodies are drawn
 };
 
 // For whoever has the scene: one thread.
@@ -107,6 +117,7 @@ private:
     MappedFile file_;
     const SceneHeader* header_ = nullptr;
     SyntheticCamera camera_;
+    std::span<const float> image_;  // empty: there is none
     std::vector<TriangleMesh> meshes_;
 };
 

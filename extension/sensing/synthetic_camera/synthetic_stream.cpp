@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 #include "platform/clock.hpp"
@@ -144,13 +145,26 @@ void SyntheticStream::run() {
     }
 }
 
-void SyntheticStream::draw(const SceneState& state) {
+// What another renderer has drawn, or what is drawn here.
+void SyntheticStream::look(const SceneState& state) {
+    if (!state.image.empty()) {
+        exact_.camera = view_;
+        exact_.depth.assign(state.image.begin(), state.image.end());
+        std::ranges::replace_if(
+            exact_.depth, [](float depth) { return !(depth > 0.0f); },
+            std::numeric_limits<float>::infinity());
+        return;
+    }
     const Pose to_camera = inverse(state.camera);
     posed_.clear();
     for (const ShownBody& body : state.bodies) {
         posed_.push_back({&scene_.meshes()[body.mesh], compose(to_camera, body.pose)});
     }
     renderer_.render(view_, posed_, exact_);
+}
+
+void SyntheticStream::draw(const SceneState& state) {
+    look(state);
     ++frame_;
     if (scene_.camera().noise == 0.0) {
         for (float& depth : exact_.depth) {

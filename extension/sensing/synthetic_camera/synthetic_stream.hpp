@@ -34,6 +34,7 @@ public:
 
 private:
     void run();
+    void look(const SceneState& state);
     void draw(const SceneState& state);
     void send(const DepthImage& image);
 
