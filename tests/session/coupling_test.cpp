@@ -177,6 +177,7 @@ TEST(Coupling, ABodyOfAFewMillimetresIsPushedAsSteadily) {
 }
 
 // Spring and damper would each stop a light body many times over within a tick, wherever in a tick they meet.
+// Where a damper would pull, the hand does not feel what is left of the spring.
 TEST(Coupling, ALightBodyGetsWhatTheHandGives) {
     for (const double mass : {0.001, 0.01, 1.0}) {
         for (const double damping : {0.0, 3.0}) {
@@ -199,7 +200,8 @@ TEST(Coupling, ALightBodyGetsWhatTheHandGives) {
                 const SessionSnapshot& snapshot = session.snapshot();
                 const BodyState* const state = state_of(snapshot.bodies, snapshot.body_count, handle);
                 ASSERT_NE(state, nullptr);
-                EXPECT_NEAR(mass * state->linear_velocity.x, given, (mass < 0.01 ? 0.05 : 0.01) * given)
+                const double share = damping == 0.0 || mass > 0.1 ? 0.01 : mass < 0.01 ? 0.2 : 0.07;
+                EXPECT_NEAR(mass * state->linear_velocity.x, given, share * given)
                     << mass << " kg, " << damping << " N s/m, " << phase;
             }
         }
