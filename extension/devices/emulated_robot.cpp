@@ -34,9 +34,10 @@ EmulatedRobot::EmulatedRobot(const EmulatedRobotSettings& settings,
 
 DeviceCapabilities EmulatedRobot::capabilities() const {
     DeviceCapabilities robot = falcon_capabilities();
-    robot.mass = settings_.body.mass + 3.0 * settings_.leg_inertia / (mean_lever * mean_lever);
-    robot.viscous = settings_.body.viscous;
-    robot.coulomb = settings_.body.coulomb;
+    robot.mass = settings_.believed_mass *
+                 (settings_.body.mass + 3.0 * settings_.leg_inertia / (mean_lever * mean_lever));
+    robot.viscous = settings_.believed_friction * settings_.body.viscous;
+    robot.coulomb = settings_.believed_friction * settings_.body.coulomb;
     return robot;
 }
 

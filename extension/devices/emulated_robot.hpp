@@ -31,6 +31,8 @@ struct EmulatedRobotSettings {
     double leg_inertia =
         1.2e-4;              // of a leg with its motor behind the gear (unit: kilogram square meters), >= 0
     double backlash = 5e-4;  // of a leg's gear (unit: radians), >= 0
+    // What its controller takes mass and friction for, as factors of what they are, > 0 and >= 0.
+    double believed_mass = 1.0, believed_friction = 1.0;
 };
 
 class EmulatedRobot final : public Device {

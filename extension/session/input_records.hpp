@@ -304,7 +304,7 @@ inline constexpr int members<SeenPoseSettings> = 2;
 template <>
 inline constexpr int members<ForceLimits> = 3;
 template <>
-inline constexpr int members<PassivitySettings> = 11;
+inline constexpr int members<PassivitySettings> = 12;
 template <>
 inline constexpr int members<PassiveUpdateSettings> = 3;
 template <>
@@ -314,7 +314,7 @@ inline constexpr int members<DeadbandSettings> = 7;
 template <>
 inline constexpr int members<ClockSkew> = 3;
 template <>
-inline constexpr int members<TeleopSettings> = 27;
+inline constexpr int members<TeleopSettings> = 28;
 template <>
 inline constexpr int members<EndpointSettings> = 8;
 template <>

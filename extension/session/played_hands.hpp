@@ -112,6 +112,7 @@ private:
         period_ = channel.link().statistics().peer_hello.period;
         settings_.depth = channel.settings().buffer_depth;
         settings_.sparse = channel.settings().deadband.enabled;
+        settings_.newest = channel.settings().newest_wins;
         settings_.seconds = seconds_;
         settings_.sample_seconds = period_ > 0 ? to_seconds(period_) : seconds_;
         settings_.guess_seconds = 2.0 * to_seconds(channel.settings().deadband.longest_silence);

@@ -53,6 +53,7 @@ struct TeleopSettings {
     StandInSettings stand_in;
     DeadbandSettings deadband;
     std::uint32_t buffer_depth = 0;     // samples that the far side keeps in hand at the start, 0 … 200
+    bool newest_wins = false;           // far side: the newest sample is played at once, without a playout
     std::uint32_t states_every = 5;     // ticks between states of what moves, >= 1
     std::uint32_t refresh_every = 200;  // ticks between states of what rests, >= 1
     std::uint32_t repeats = 16;         // samples in one packet, the newest and older ones, 1 … 16

@@ -40,8 +40,11 @@ SceneHand::SceneHand(HandPlan plan, const Workspace& mapping) : pointed_at_(plan
     } else if (plan.kind == HandKind::emulated_robot) {
         RobotTable::Settings table;
         table.height = plan.table_height;
+        EmulatedRobotSettings robot;
+        robot.believed_mass += plan.robot_mass_error;
+        robot.believed_friction += plan.robot_friction_error;
         port_ = std::make_shared<EmulatedRobot>(
-            EmulatedRobotSettings{}, std::make_shared<TipSurroundings>(table, std::move(plan.tip)));
+            robot, std::make_shared<TipSurroundings>(table, std::move(plan.tip)));
     } else if (plan.kind == HandKind::robot_tip) {
         port_ = std::make_shared<TipDevice>(std::move(plan.tip));
     } else {

@@ -56,6 +56,8 @@ struct HandPlan {
     ArmSettings arm;
     DriverSettings driver;
     double table_height = -0.01;  // of an emulated robot's (unit: meters)
+    // What its controller takes its mass and friction for too much, as shares of them.
+    double robot_mass_error = 0.0, robot_friction_error = 0.0;
     // Of an emulated robot, and of the hand that is its tip: the same one.
     std::shared_ptr<TipExchange> tip = std::make_shared<TipExchange>();
     Vec3 start{0.0};  // where one that is led begins, in the scene (unit: meters)

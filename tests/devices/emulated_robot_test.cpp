@@ -55,6 +55,22 @@ TEST(EmulatedRobot, RestsOnWhatItRunsInto) {
     EXPECT_NEAR(rig.robot.contact().y, 1'000.0 * 0.01 * 800.0 / 1'800.0, 0.4);
 }
 
+// The controller is told of another robot than the one that moves.
+TEST(EmulatedRobot, MovesAsItIsWhateverItsControllerBelieves) {
+    EmulatedRobotSettings mistaken;
+    mistaken.believed_mass = 1.3;
+    mistaken.believed_friction = 0.7;
+    Rig rig(mistaken), known;
+    for (Rig* one : {&rig, &known}) {
+        one->hold({0.02, 0.01, 0.0}, 300);
+    }
+    EXPECT_EQ(rig.robot.tip(), known.robot.tip());
+    const DeviceCapabilities told = rig.robot.capabilities(), is = known.robot.capabilities();
+    EXPECT_DOUBLE_EQ(told.mass, 1.3 * is.mass);
+    EXPECT_DOUBLE_EQ(told.viscous, 0.7 * is.viscous);
+    EXPECT_DOUBLE_EQ(told.coulomb, 0.7 * is.coulomb);
+}
+
 TEST(EmulatedRobot, ItsGearsHideTheFirstOfATurnBack) {
     EmulatedRobotSettings loose;
     loose.backlash = 0.01;

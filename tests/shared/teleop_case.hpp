@@ -98,9 +98,11 @@ struct TeleopCase {
     ArmSettings arm;
     double settled_from = 0.0, settled_to = 0.0;  // the arm holds still: how deep it settles (unit: seconds)
     double seconds = 10.0;
-    double history = 1.024;           // that the model keeps of its past (unit: seconds)
-    Nanoseconds phase = 0;            // of the far side's ticks after the operator's, 0 … period - 1
-    bool robot = false;               // scenario 3: the scene is a real place, and an emulated robot is there
+    double history = 1.024;  // that the model keeps of its past (unit: seconds)
+    Nanoseconds phase = 0;   // of the far side's ticks after the operator's, 0 … period - 1
+    bool robot = false;      // scenario 3: the scene is a real place, and an emulated robot is there
+    // What its controller takes its mass and friction for, as factors.
+    double robot_mass = 1.0, robot_friction = 1.0;
     Nanoseconds late = 0;             // the far side starts so much after the operator's, >= 0
     Vec3 path_shift{0.0};             // the hand's path lies so far off the scene's (unit: meters)
     double pose_noise = 0.0;          // standard deviation of what the far side says of places (unit: meters)

@@ -39,11 +39,12 @@ private:
 
 class TeleopRobot {
 public:
-    TeleopRobot(TeleopPlace& world, RobotTip& tip, const TeleopSettings& settings, Link& link,
-                std::shared_ptr<TeleopPort> port, const EndpointSettings& endpoint)
+    TeleopRobot(TeleopPlace& world, RobotTip& tip, const EmulatedRobotSettings& robot,
+                const TeleopSettings& settings, Link& link, std::shared_ptr<TeleopPort> port,
+                const EndpointSettings& endpoint)
         : world_(world),
           session_(teleop_session_settings()),
-          robot_(EmulatedRobotSettings{}, std::make_shared<SurroundingPlace>(world, tip)) {
+          robot_(robot, std::make_shared<SurroundingPlace>(world, tip)) {
         ProxyDescription pointer;
         pointer.device = session_.add_device(robot_, Workspace{}).handle;
         session_.add_proxy(pointer);

@@ -148,7 +148,10 @@ void TeleopRun::attach_far_side(std::uint64_t epoch) {
     TeleopSettings settings = experiment_.settings;
     settings.gravity = experiment_.gravity_believed;
     if (experiment_.robot) {
-        robot_ = std::make_unique<TeleopRobot>(truth_, *tip_, settings, at_far_, far_port_,
+        EmulatedRobotSettings robot;
+        robot.believed_mass = experiment_.robot_mass;
+        robot.believed_friction = experiment_.robot_friction;
+        robot_ = std::make_unique<TeleopRobot>(truth_, *tip_, robot, settings, at_far_, far_port_,
                                                endpoint(Side::teleoperator_side, epoch));
         return;
     }

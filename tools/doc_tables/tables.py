@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from doc_tables.words import figure, percent, signed_percent
-from measuring import rivals, teleop_runs
+from measuring import rivals
 
 Summary = Mapping[str, object]
 Rows = list[list[str]]
@@ -47,7 +47,7 @@ def static_errors(summary: Summary) -> Rows:
     lines = {
         "direct, 0 ms": "traditional_0ms.force_error_mean_N",
         "direct, 100 ms": "traditional_100ms.force_error_mean_N",
-        **{f"… {way.replace('_', ' ')}, 100 ms": f"traditional_{way}_100ms.force_error_mean_N" for way in teleop_runs.PASSIVITY},
+        **{f"{LABELS[way]}, 100 ms": f"{way}_100ms.force_error_mean_N" for way in rivals.TRADITIONAL if way != "traditional"},
         **{f"right model, {delay} ms": f"mmt_right_{delay}ms.force_error_mean_N" for delay in (100, 500, 5000)},
         **{f"wrong model, never corrected, {delay} ms": f"mmt_wrong_{delay}ms.force_error_mean_N" for delay in (0, 100, 500, 5000)},
         "… over direct, 100 ms": "mmt_wrong_100ms.over_traditional_100ms",

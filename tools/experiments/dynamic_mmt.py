@@ -15,6 +15,9 @@ jittering link (thesis figure 5.5), and places that are seen with 1 mm of noise.
 long_delay.WAY.2000ms.* are a turn and a half with 2 s there and back: the default with a history that is longer than the delay,
 short_history with the usual one of 1.024 s, beyond which moving bodies are corrected by velocity, and never_corrected.
 
+thesis_system.DELAYms.LOSSpct.* is the thesis's own link (rivals.THESIS_SYSTEM), thesis_system.VARIANT.* the same with other
+mistakes, so that what its jitter, its losses and its poses without rates do is beside ours.
+
 The grid (measuring/teleop_grid.py; grid.csv has a line for each of its cases) asks the default against never correcting,
 pose alone, velocities and traditional touch, over models that are wrong in many ways; grid.unseen.* are the same of models
 that chance has made wrong, by so many seeds (grid_unseen.csv). --table=0, --variants=0 and the options
@@ -91,6 +94,7 @@ def cases(description: dict, settings: Settings, output: Path) -> list[teleop_ru
             common["object"] = description["object"]
             for way, keys in rivals.TRADITIONAL.items():
                 found.append({"name": f"{way}.{delay}ms.{loss}pct", **keys, **common})
+            found.append({"name": f"thesis_system.{delay}ms.{loss}pct", **rivals.THESIS_SYSTEM, **common, **wrong})
             for correction in CORRECTIONS:
                 for derivation in DERIVATIONS if correction != "none" else ("none",):
                     name = f"{correction}.{derivation}.{delay}ms.{loss}pct"
@@ -144,6 +148,7 @@ def _variants(description: dict, settings: Settings, output: Path) -> dict[str, 
             name = f"{variant}.{scheme}.{VARIED_AT}ms"
             case = {"name": name, **common, **how.get("link", {}), **rivals.with_model(scheme, wrong)}
             cases.append(case | ({"rows": output / f"{name}.csv"} if variant == FIGURE_5_5 else {}))
+        cases.append({"name": f"thesis_system.{variant}.{VARIED_AT}ms", **common, **how.get("link", {}), **rivals.THESIS_SYSTEM, **wrong})
     found = teleop_runs.run(description["scene"], cases, output)
     summary: dict[str, object] = {f"{name}.{key}": one[key] for name, one in found.items() for key in FIGURES}
     for scheme in rivals.SCHEMES:

@@ -1,6 +1,6 @@
 """A box is pushed through a gate and passes or gets stuck, on both sides alike or not (thesis figure 3.3).
 
-    ./run experiment gate [--runs=200] [--seed=1] [--delay=100] [--pictures=1]
+    ./run experiment gate [--runs=200] [--seed=1] [--delay=100] [--sweep=1] [--pictures=1]
 
 Cases are the schemes C': spring, position (1), position_force (2), position_force_relative (3), and 2 and 3 with a
 free force (position_force_free, relative_free); with "_alone" the model is never corrected. Beside them, with the spring:

@@ -31,6 +31,7 @@ RANGES: dict[str, dict[str, tuple[float, float]]] = {
     "pose_only": {"states_every": (1, 50)},
     "velocities": {"states_every": (1, 50)},
     "passive_updates": {"update_bring_in": (0.02, 1.0), "update_take_out": (0.02, 1.0), "update_tank": (0.005, 0.2)},
+    "traditional_compensation_spring": {"softening_ms": (5.0, 2000.0)},
     "traditional_wave_variables": {"wave_impedance": (1.0, 60.0), "wave_cutoff": (3.0, 200.0), "drift_rate": (0.5, 50.0)},
     "traditional_time_domain": {
         "reserve": (1e-4, 1e-2), "lightest_hand": (0.02, 0.5), "largest_damping": (3.0, 100.0), "far_store": (1e-3, 0.1),

@@ -26,6 +26,19 @@ CASES: dict[str, teleop_runs.Case] = {
 # The others, with the spring: what corrects, or what comes back, keeps the two together.
 OTHERS = ("pose_only", "velocities", "passive_updates", *rivals.TRADITIONAL)
 CASES |= {f"spring_{scheme}" if scheme in rivals.MODELS else scheme: rivals.SCHEMES[scheme] for scheme in OTHERS}
+# The terms of C', one at a time: the speed of 1 in free space, how far a force or a relative place leads 2 and 3, how near is near.
+TERMS: dict[str, tuple[str, tuple[float, ...]]] = {
+    "position": ("stand_in_speed", (0.05, 0.1, 0.2, 0.5)),
+    "position_force": ("leash", (0.0001, 0.0005, 0.002, 0.01)),
+    "position_force_relative": ("leash", (0.0001, 0.0005, 0.002, 0.01)),
+    "position_force_relative_near": ("near", (0.01, 0.03, 0.1)),
+}
+SWEEP: dict[str, teleop_runs.Case] = {
+    f"{scheme}.{term}_{value:g}{variant}": {"control": scheme.removesuffix("_near"), term: value, "correction": correction}
+    for scheme, (term, values) in TERMS.items()
+    for value in values
+    for variant, correction in VARIANTS.items()
+}
 
 
 @dataclass(frozen=True)
@@ -33,6 +46,7 @@ class Settings:
     runs: int = options.option(200, "count", 1, 100_000)
     seed: int = options.option(1, "count", 0, 10**9)
     delay: float = options.option(100.0, "ms", 0, options.LONGEST_DELAY_MS)
+    sweep: bool = options.switch(False)
     pictures: bool = options.switch(True)
     clock: Literal["virtual"] = "virtual"
 
@@ -59,9 +73,13 @@ def perturbation(description: dict, seed: int) -> teleop_runs.Case:
     return case | {f"wrong.{body}.friction": f"{friction:.6f}" for body in (box, *description["friction_of"])}
 
 
+def asked(settings: Settings) -> dict[str, teleop_runs.Case]:
+    return SWEEP if settings.sweep else CASES
+
+
 def cases(description: dict, settings: Settings) -> list[teleop_runs.Case]:
     found: list[teleop_runs.Case] = []
-    for name, keys in CASES.items():
+    for name, keys in asked(settings).items():
         for run in range(settings.runs):
             case = {"name": f"{name}.{run}", **keys, "delay_ms": settings.delay}
             case |= {"seconds": description["seconds"], "object": description["object"]}
@@ -81,10 +99,10 @@ def run(name: str, settings: Settings, output: Path) -> dict[str, object]:
     found = teleop_runs.run(description["scene"], cases(description, settings), output, bins=True)
     _write_table(output / "runs.csv", description, found)
     summary: dict[str, object] = {}
-    for case in CASES:
+    for case in asked(settings):
         runs = [found[f"{case}.{number}"] for number in range(settings.runs)]
         summary |= {f"{case}.{key}": value for key, value in shares(description, runs).items()}
-    if settings.pictures:
+    if settings.pictures and not settings.sweep:
         from plots import endings
 
         endings.draw(summary, tuple(CASES), description["title"], output / "endings.png")

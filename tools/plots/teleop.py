@@ -13,7 +13,7 @@ WAYS = {
     "default": (style.MEASURED, "-"), "never_corrected": (style.QUIET, "-"), "pose_only": (style.WARNING, "-"),
     "velocities": (style.REFERENCE, "-"), "passive_updates": ("#3f8148", "-"), "carried_translate": ("#b9770e", "-."),
     "carried_turn": ("#b23a8e", "-."), "traditional": (style.INK, "--"),
-    "traditional_wave_variables": ("#7a4fa3", "--"), "traditional_time_domain": ("#2a8c8c", "--"),
+    "traditional_compensation_spring": ("#4a6b8a", ":"), "traditional_wave_variables": ("#7a4fa3", "--"), "traditional_time_domain": ("#2a8c8c", "--"),
     "traditional_two_layers": ("#a87b1e", "--"),
 }  # fmt: skip
 

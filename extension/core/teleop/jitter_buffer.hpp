@@ -15,6 +15,8 @@
 // deadband.hpp says, held after `guess_seconds`, and nothing waits: the packet that was on its way for the
 // shortest time sets the pace.
 //
+// With `newest`, as the thesis's system does it, none of this is done: what has come last is played.
+//
 // What cannot be is not believed (sequence_guard.hpp).
 //
 // A hand that holds a tool is turned as well (TurningSample): all of this holds for its turns.
@@ -197,6 +199,9 @@ private:
     }
 
     double next_head() {
+        if (settings_.newest && !settings_.sparse) {
+            return std::max(head_, place(ring_.newest()));
+        }
         const double target = clock_ - lag_.wanted();
         const double available = place(ring_.newest());
         const double reach = settings_.sparse ? target : std::min(target, available);

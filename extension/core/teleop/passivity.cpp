@@ -64,7 +64,7 @@ Vec3 OperatorPassivity::force(Passivity scheme, const PassivitySettings& setting
     Vec3 force(0.0);
     switch (scheme) {
         case Passivity::none:
-            force = in.far_sample != 0 ? in.far_force : Vec3(0.0);
+            force = soft_force(settings, in);
             break;
         case Passivity::wave_variables:
             force = wave_force(settings, in);
@@ -106,6 +106,14 @@ void OperatorPassivity::hear(Passivity scheme, const PassivitySettings& settings
     }
     now_.far_taken = in.far_taken;
     now_.heard = in.far_sample;
+}
+
+Vec3 OperatorPassivity::soft_force(const PassivitySettings& settings, const In& in) {
+    if (in.far_sample == 0 || in.far_sample > in.sample) {
+        return Vec3(0.0);
+    }
+    const double age = static_cast<double>(in.sample - in.far_sample) * in.seconds;
+    return softened_share(settings.softening, age) * in.far_force;
 }
 
 Vec3 OperatorPassivity::wave_force(const PassivitySettings& settings, const In& in) {

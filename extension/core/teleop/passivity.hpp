@@ -23,6 +23,11 @@
 //                   force and the operator's place; the lower has a tank at each end, and nothing is done
 //                   that the tank cannot pay. What is taken in is shared between both tanks; below its
 //                   wanted level the operator's is filled by -d x'.
+//   none            the force as it comes, or through a network compensation spring (Kroep and others 2023):
+//                   the older a force is, the softer is the spring that displays it. With its age T,
+//                       f = h / (1 + T / tau)
+//                   so that stiffness times delay, which decides whether the loop is stable, stays below
+//                   k tau at any T. The hand may still be given more than it has put in.
 //
 // Pure values: no clock, no allocation after set-up.
 #pragma once
@@ -52,7 +57,13 @@ struct PassivitySettings {
     double tank = 0.01;        // two layers: the operator's wanted level (unit: joules), >= 0
     double refill = 200.0;     // two layers: d for each joule below it (unit: newton-seconds per meter joule)
     double shared = 0.5;       // two layers: of what is taken in, what the other end gets, 0 … 1
+    double softening = 0.0;    // none: tau above; 0: not softened (unit: seconds), >= 0
 };
+
+// Of a force that is so old, what a network compensation spring displays, 0 … 1.
+constexpr double softened_share(double softening, double age) {
+    return softening > 0.0 ? softening / (softening + age) : 1.0;
+}
 
 class OperatorPassivity {
 public:
@@ -86,6 +97,7 @@ private:
     const Past* past(std::uint64_t sample) const;
     void hear(Passivity scheme, const PassivitySettings& settings, const In& in);
     Vec3 affordable(const PassivitySettings& settings, const In& in, const Vec3& force, double energy) const;
+    static Vec3 soft_force(const PassivitySettings& settings, const In& in);
     Vec3 wave_force(const PassivitySettings& settings, const In& in);
     Vec3 damped_force(const PassivitySettings& settings, const In& in);
     Vec3 tank_force(const PassivitySettings& settings, const In& in);

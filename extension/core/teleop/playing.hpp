@@ -8,7 +8,8 @@ namespace tactus {
 struct JitterBufferSettings {
     std::uint32_t depth = 0;  // samples kept in hand at least, 0 … 200
     bool sparse = false;
-    double seconds = 0.001;         // of a tick here, > 0
+    bool newest = false;     // the newest sample is played at once: no lag is kept, and none is filled in
+    double seconds = 0.001;  // of a tick here, > 0
     double sample_seconds = 0.001;  // between two samples of the operator, > 0
     double guess_seconds = 0.2;     // sparse: so long a sample is carried on, >= 0
 };

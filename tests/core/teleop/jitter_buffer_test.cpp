@@ -80,6 +80,31 @@ TEST(JitterBuffer, KeepsItsDepth) {
     }
 }
 
+TEST(JitterBuffer, PlaysTheNewestAtOnceWhereThatIsAsked) {
+    JitterBufferSettings settings;
+    settings.newest = true;
+    Buffer buffer(settings);
+    Sample out;
+    const auto expect = [&](Playing how, std::uint64_t sequence) {
+        EXPECT_EQ(buffer.play(out), how);
+        EXPECT_EQ(out.sequence, sequence);
+    };
+    buffer.insert(sample(1));
+    expect(Playing::exact, 1);
+    buffer.insert(sample(4));  // none is filled in
+    expect(Playing::exact, 4);
+    buffer.insert(sample(3));  // too late
+    expect(Playing::held, 4);
+    for (const double sequence : {5.0, 7.0, 6.0, 9.0}) {
+        buffer.insert(sample(sequence));
+    }
+    expect(Playing::exact, 9);
+    for (std::uint64_t sequence = 10; sequence < 500; ++sequence) {  // and no lag is kept after the stall
+        buffer.insert(sample(static_cast<double>(sequence)));
+        expect(Playing::exact, sequence);
+    }
+}
+
 TEST(JitterBuffer, FillsALossBetweenItsNeighbours) {
     JitterBufferSettings settings;
     settings.depth = 3;

@@ -118,6 +118,28 @@ TEST(Passivity, WithoutASchemeADelayedWallBounces) {
     EXPECT_GT(press(Passivity::none, 50, 500.0).restless, 0.1);
 }
 
+// Stiffness times delay stays below k tau: here the arm's own 150 N/m are stiffer than what is displayed.
+TEST(Passivity, ASpringThatIsSofterTheOlderItsForceCalmsADelayedWall) {
+    PassivitySettings soft;
+    soft.softening = 0.02;
+    for (const std::size_t there : {25u, 50u, 100u, 250u}) {
+        EXPECT_GT(press(Passivity::none, there, 500.0).restless, 0.1) << there;
+        EXPECT_LT(press(Passivity::none, there, 500.0, {}, soft).restless, 0.02) << there;
+    }
+}
+
+TEST(Passivity, AForceThatIsOneSofteningOldIsHalved) {
+    PassivitySettings soft;
+    soft.softening = 0.05;
+    OperatorPassivity near;
+    OperatorPassivity::In in;
+    in.sample = 120;
+    in.far_sample = 70;
+    in.far_force = {0.0, 3.0, 0.0};
+    EXPECT_NEAR(near.force(Passivity::none, soft, in).y, 1.5, 1e-12);
+    EXPECT_EQ(near.force(Passivity::none, {}, in).y, 3.0);
+}
+
 TEST(Passivity, NoSchemeMakesEnergyAtAnyDelay) {
     for (const Passivity scheme :
          {Passivity::wave_variables, Passivity::time_domain, Passivity::two_layers}) {
