@@ -7,11 +7,14 @@ extends SceneTree
 ## --part=far       the robot, the camera, and the place that both are in
 ## --part=direct    that place alone, touched by the operator's hand itself
 ## --moves=1        the cube is pushed along in that place
+## --sensor.NAME=VALUE, --robot.NAME=VALUE, --surface.NAME=VALUE  far: properties of the HapticDepthSensor,
+##                  of the robot, and of the material that the model has for what the camera finds
 ## --NAME=VALUE     a property of the part's MMTLink
 ##
 ## The hand sets out when the model has all that is there, or at once where it touches directly. Each line is
 ## JSON: time since the epoch and since the hand has set out (s; below 0: it has not), place and force of the
-## hand, force on the robot's tip, and where the bodies are, by their names; once, what the camera sees.
+## hand, how far its proxy is from it, force on the robot's tip, and where the bodies are, by their names;
+## once, what the camera sees.
 
 const Sides := preload("res://experiments/sides.gd")
 const OBJECTS := 3
@@ -62,16 +65,35 @@ func _initialize() -> void:
 	if _part != "direct":
 		_link = _world.get_node("MMTLink")
 		_link.partner = NodePath()
-		for property: String in settings:
-			if property not in ["part", "moves"]:
-				var problem := Sides.set_property(_link, "--%s=%s" % [property, settings[property]])
-				if not problem.is_empty():
-					printerr("camera_side: ", problem, ".")
-					quit(2)
-					return
+	var problem := _take(settings, scene)
+	if not problem.is_empty():
+		printerr("camera_side: ", problem, ".")
+		quit(2)
+		return
 	if _part == "far":
 		scene.get_node("Far/DepthSensor").show_cloud = true
 	root.add_child(scene)
+
+
+## Empty, or why a setting was refused.
+func _take(settings: Dictionary, scene: Node) -> String:
+	var owners := {"": _link}
+	if _part == "far":
+		_world.default_material = _world.default_material.duplicate()
+		owners["sensor"] = scene.get_node("Far/DepthSensor")
+		owners["robot"] = scene.get_node("Far/Robot")
+		owners["surface"] = _world.default_material
+	for property: String in settings:
+		if property in ["part", "moves"]:
+			continue
+		var dot := property.find(".")
+		var owner: Object = owners.get(property.left(maxi(dot, 0)))
+		if owner == null:
+			return "--%s is refused: the part %s has no such thing" % [property, _part]
+		var problem := Sides.set_property(owner, "--%s=%s" % [property.substr(dot + 1), settings[property]])
+		if not problem.is_empty():
+			return problem
+	return ""
 
 
 func _process(_delta: float) -> bool:
@@ -115,6 +137,7 @@ func _say(now: float) -> void:
 	}
 	line["hand"] = _numbers(_device.get_hand_position())
 	line["force"] = _numbers(_device.get_force())
+	line["depth"] = _depth()
 	if _link != null:
 		line["text"] = _link.get_state_text()
 	if _part == "far":
@@ -134,6 +157,12 @@ func _say(now: float) -> void:
 			var at: Transform3D = body.global_transform
 			line.bodies[name] = _numbers(at.origin) + _numbers(at.basis.x) + _numbers(at.basis.y)
 	print(JSON.stringify(line))
+
+
+## Of the device position below its proxy.
+func _depth() -> float:
+	var pointer: ProxyPointer = _world.get_node("ProxyPointer")
+	return _device.get_hand_position().distance_to(pointer.global_position)
 
 
 ## The points that the camera sees, and what it has found where: in millimeters, in its own frame.

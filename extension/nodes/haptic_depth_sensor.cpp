@@ -6,6 +6,7 @@
 #include <godot_cpp/classes/scene_tree.hpp>
 #include <godot_cpp/classes/window.hpp>
 
+#include "core/math/body_motion.hpp"
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_world.hpp"
 #include "nodes/mesh_library.hpp"
@@ -152,7 +153,7 @@ void HapticDepthSensor::open() {
         Node* const root =
             synthetic_scene_.is_empty() ? get_tree()->get_root() : get_node_or_null(synthetic_scene_);
         load_error_ = view_.begin(*depth_sensing(ignored), camera, *root, *this);
-        view_.show(pose_of(get_global_transform()));
+        view_.show(synthetic_camera());
         uri = view_.uri();
         if (uri.empty()) {
             sensor_->close();
@@ -163,6 +164,11 @@ void HapticDepthSensor::open() {
     choice.uri = uri.c_str();
     choice.record_to = images.c_str();
     sensor_->open(choice);
+}
+
+Pose HapticDepthSensor::synthetic_camera() const {
+    const Pose error{from_godot(synthetic_place_error_), turn_by(from_godot(synthetic_rotation_error_), 1.0)};
+    return compose(pose_of(get_global_transform()), error);
 }
 
 void HapticDepthSensor::pass_on_library() {
@@ -180,7 +186,9 @@ void HapticDepthSensor::pass_on_settings() {
         return;
     }
     settings_.camera = pose_of(get_global_transform());
-    settings_.camera_delay = source_ == SOURCE_CAMERA ? image_delay_ : 0.0;
+    settings_.camera_delay = source_ == SOURCE_CAMERA      ? image_delay_
+                             : source_ == SOURCE_SYNTHETIC ? synthetic_clock_error_
+                                                           : 0.0;
     settings_.wants_cloud = looks_.show_cloud;
     settings_.wants_surface = touches_cloud();
     sensor_->set_settings(settings_);
@@ -205,7 +213,7 @@ void HapticDepthSensor::look() {
         return;
     }
     pass_on_settings();
-    if (view_.is_there() && view_.show(pose_of(get_global_transform()))) {
+    if (view_.is_there() && view_.show(synthetic_camera())) {
         open();  // something is drawn no longer, or as another mesh
     }
     const bool is_new = sensor_->take();

@@ -83,6 +83,7 @@ private:
     void pass_on_settings();
     void look();
     void tell(bool is_new);
+    Pose synthetic_camera() const;  // where it really is
     double stand_at(const std::optional<Pose>& camera, double residual, const godot::String& why_not);
     godot::Dictionary describe(const SightedObject& object) const;
 
@@ -94,7 +95,10 @@ private:
     bool repeats_ = true;
     godot::NodePath synthetic_scene_;
     double synthetic_depth_error_ = 0.01;
-    SyntheticCamera synthetic_;  // with the width of any camera
+    godot::Vector3 synthetic_place_error_;     // (unit: meters)
+    godot::Vector3 synthetic_rotation_error_;  // (unit: radians)
+    double synthetic_clock_error_ = 0.0;       // (unit: seconds)
+    SyntheticCamera synthetic_;                // with the width of any camera
     godot::PackedStringArray meshes_;
     SensorSettings settings_;   // as far as they are properties
     double image_delay_ = 0.0;  // (unit: seconds)

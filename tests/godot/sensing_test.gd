@@ -84,6 +84,24 @@ func test_it_sees_points_where_the_table_is() -> void:
 	check_near(middle / points.size(), 0.0, 0.002, "height of the table")
 
 
+## Calibration has left an error: what is seen is where the node's pose has it, not where it is.
+func test_a_camera_that_is_not_at_its_node_sees_all_elsewhere() -> void:
+	var sensor := _sensor(self)
+	sensor.synthetic_depth_error = 0.0
+	add_child(sensor)
+	check(await _sees(sensor), "it says: %s" % sensor.get_state_text())
+	check_near(sensor.get_plane().offset, 0.0, 0.002, "height of the table")
+	# Higher by 20 mm than the node, which looks down by 0.97 rad.
+	sensor.synthetic_place_error = sensor.basis.inverse() * Vector3(0, 0.02, 0)
+	await _images(sensor, 5)
+	check_near(sensor.get_plane().offset, -0.02, 0.002, "height of the table below a camera that is too high")
+	sensor.synthetic_place_error = Vector3.ZERO
+	sensor.synthetic_rotation_error = Vector3(0.05, 0, 0)
+	await _images(sensor, 5)
+	var tilt: float = sensor.get_plane().normal.angle_to(Vector3.UP)
+	check_near(tilt, 0.05, 0.005, "tilt of the table")
+
+
 func test_an_unplugged_camera_is_a_state_and_comes_back() -> void:
 	var sensor := _sensor(self)
 	sensor.show_cloud = true

@@ -220,6 +220,42 @@ TEST(Camera, TwoSeeTheirOwnScenes) {
     EXPECT_EQ(testing::frame_of(second, other, 1).depth_mm, other.image().depth_mm);
 }
 
+// As another program writes it, here MuJoCo's renderer through tools/measuring/depth_file.py.
+TEST(Camera, SeesTheImageThatAnotherRendererHasDrawn) {
+    const SyntheticCamera settings = testing::exact_camera();
+    const std::size_t pixels = static_cast<std::size_t>(settings.width * settings.height);
+    MappedFile file;
+    ASSERT_EQ(file.create("tactus_scene_", sizeof(SceneHeader) + pixels * sizeof(float)), "");
+    auto* const header = new (file.bytes().data()) SceneHeader;
+    header->bytes = file.bytes().size();
+    header->width = settings.width;
+    header->height = settings.height;
+    header->field_of_view = settings.field_of_view;
+    header->has_image = 1;
+    header->shown = 1;
+    header->time = 7;
+    const std::span<float> depths(reinterpret_cast<float*>(file.bytes().data() + sizeof(SceneHeader)),
+                                  pixels);
+    for (std::size_t i = 0; i < pixels; ++i) {
+        depths[i] = i % 5 == 0 ? 0.0f : 0.5f + 1e-3f * static_cast<float>(i % 1000);
+    }
+    Camera camera(testing::openni());
+    ASSERT_EQ(camera.open({synthetic_scheme + file.path()}), "");
+    DepthImage image;
+    Camera::Reading last = Camera::Reading::nothing;
+    for (int i = 0; i < 50 && last != Camera::Reading::frame; ++i) {
+        last = camera.read(image, 100);
+    }
+    ASSERT_EQ(last, Camera::Reading::frame);
+    EXPECT_EQ(image.time_us, 7u);
+    ASSERT_EQ(image.depth_mm.size(), pixels);
+    for (std::size_t i = 0; i < pixels; ++i) {
+        const long expected = i % 5 == 0 ? 0 : std::lround(1000.0f * depths[i]);
+        ASSERT_EQ(static_cast<long>(image.depth_mm[i]), expected) << i;
+    }
+    header->plug = Plug::gone;
+}
+
 TEST(Camera, RefusesASceneThatIsDamaged) {
     const fs::path damaged = fs::temp_directory_path() / "tactus_damaged_scene";
     const std::string path = Scene().uri().substr(std::string(synthetic_scheme).size());

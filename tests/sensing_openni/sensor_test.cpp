@@ -90,6 +90,22 @@ TEST(Sensor, KnowsWhenItsImageWasTaken) {
     EXPECT_EQ(eyes->sight().seen_at, static_cast<Nanoseconds>(eyes->sight().camera_time) * 1000);
 }
 
+// Also of a clock that is this machine's own: its offset is what a scene says that it is.
+TEST(Sensor, TakesAnImageForAsOldAsItIsTold) {
+    Scene scene;
+    scene.show(50'000);
+    const OwnedSensor eyes = sensor_of(scene);
+    SensorSettings settings;
+    settings.camera = scene.camera();
+    settings.camera_delay = 0.02;
+    eyes->set_settings(settings);
+    const std::string uri = scene.uri();
+    eyes->open({uri.c_str()});
+    ASSERT_TRUE(
+        until(*eyes, [](const Sight& sight) { return sight.frames > 0; }, [&] { scene.show(50'000); }));
+    EXPECT_EQ(eyes->sight().seen_at, 50'000'000 - 20'000'000);
+}
+
 TEST(Sensor, SeesACloudWhereTheTableIs) {
     Scene scene;
     scene.show(7);

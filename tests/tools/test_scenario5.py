@@ -1,4 +1,4 @@
-"""Scenario 5 in a place that MuJoCo simulates (./run experiment scenario5 --robot=mujoco)."""
+"""Scenario 5 without help from the truth, and in a place that MuJoCo simulates."""
 
 import struct
 from pathlib import Path
@@ -6,9 +6,51 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from experiments import scenario5
+from experiments import scenario3, scenario5
 from measuring import depth_file, eye, robot_runs
 from setup import python_tools
+
+
+def test_what_is_not_known_is_drawn_by_seed_and_never_exact():
+    found = [scenario5.drawn(seed) for seed in range(1, 21)]
+    assert found[0] == scenario5.drawn(1) and len({str(one) for one in found}) == 20
+    for one in found:
+        assert one["sensor.knows_support"] is False
+        assert one["surface.stiffness"] != scenario5.STIFFNESS and 0.5 <= one["surface.stiffness"] / scenario5.STIFFNESS <= 2.0
+        assert 0.0 < np.linalg.norm(one["sensor.synthetic_place_error"]) < 0.02
+        assert 0.0 < np.linalg.norm(one["sensor.synthetic_rotation_error"]) < np.radians(3.0)
+        assert abs(one["sensor.synthetic_clock_error"]) <= 0.02
+        assert all(abs(one[f"robot.robot_{what}_error"]) <= 0.3 for what in ("mass", "friction"))
+
+
+def test_a_run_that_discovers_nothing_is_counted_and_left_out(monkeypatch, capsys):
+    def play(settings, moves, unknown, output):
+        if unknown["sensor.synthetic_seed"] == 2:
+            raise scenario5.NotDiscovered("nothing is there")
+        return unknown["sensor.synthetic_seed"]
+
+    monkeypatch.setattr(scenario5, "play", play)
+    monkeypatch.setattr(scenario5, "figures", lambda said, seconds: {"force_error_mean_N": float(said)})
+    unknown = {seed: scenario5.drawn(seed) for seed in (1, 2, 3)}
+    summary = scenario5._without_help(scenario5.Settings(), 0, unknown, Path())
+    assert summary == {
+        "seed_1.force_error_mean_N": 1.0, "seed_3.force_error_mean_N": 3.0, "not_discovered_seeds": 1,
+        "force_error_mean_N_median": 2.0, "force_error_mean_N_p95": pytest.approx(2.9),
+    }  # fmt: skip
+    assert "seed 2: nothing is there" in capsys.readouterr().out
+
+
+def test_a_controller_that_is_mistaken_is_told_over_its_seeds():
+    figures = dict.fromkeys(scenario3.FIGURES.values(), 1.0)
+    found = {"traditional_robot.0ms": figures} | {
+        f"traditional_robot_mistaken_{seed}.0ms": dict.fromkeys(figures, float(seed)) for seed in (1, 2, 3)
+    }
+    summary = scenario3.summary_of(found)
+    assert summary["traditional_robot.0ms.force_error_mean_N"] == 1.0
+    assert summary["traditional_robot_mistaken.0ms.force_error_mean_N_median"] == 2.0
+    assert summary["traditional_robot_mistaken.0ms.force_error_mean_N_p95"] == pytest.approx(2.9)
+    drawn = [scenario3.mistaken(seed) for seed in range(1, 6)]
+    assert all(0.7 <= factor <= 1.3 for one in drawn for factor in one.values()) and drawn[0] != drawn[1]
 
 
 def test_an_image_is_written_as_the_driver_reads_it():

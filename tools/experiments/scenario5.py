@@ -1,9 +1,13 @@
 """Scenario 5: a camera makes the operator's model, and a robot follows the hand in a place of its own (thesis 4.4.1).
 
-    ./run experiment scenario5 [--seconds=16]
+    ./run experiment scenario5 [--seconds=16] [--seeds=20] [--seed=1] [--scenes=static,dynamic]
     ./run experiment scenario5 --robot=mujoco [--seconds=16] [--delay=0,25,50,100,200]
 
 --seconds  of the hand's way, from when the model has all that is there
+--seeds    so many runs beside it in which nothing helps (drawn()): the model begins with another surface than the true one, the
+           camera stands off by millimeters and tenths of a degree, with a clock that is off, above a table of unknown height, and the
+           robot's controller takes its mass and friction for up to 30 % more or less
+--seed     of the first of them
 
 Two Godot processes over UDP in real time: the operator; and the far side with an emulated robot, a synthetic camera and the
 place that both are in, whose masses and friction are not the library's. A third one touches that place directly, along the
@@ -16,6 +20,11 @@ SCENE.force_explained_N                 what the error of place alone makes of i
 SCENE.force_error_over_pose_explained   the one over the other
 SCENE.robot_touches_share               of the time in which the hand touches, in which the robot does, too
 SCENE.frame_ms_median                   of the camera's images, from arrival to objects
+SCENE.stiffness_over_true_first, _last  what is displayed of the true stiffness, in the first and in the last quarter of the touches
+
+SCENE.FIGURE_median, SCENE.FIGURE_p95   with --seeds: over the runs in which nothing helps; SCENE.seed_N.FIGURE is one of them
+SCENE.not_discovered_seeds              runs in which the model never had all that is there
+unknown.seed_N.PROPERTY                 what was drawn
 
 --robot=mujoco  the same scenario in a place that MuJoCo simulates, with an arm of seven joints, in virtual time: its depth images
            come through OpenNI2's driver and make the local model (measuring/mujoco_seen_place.py). The operator's arm presses a cube and a
@@ -25,7 +34,9 @@ SCENE.frame_ms_median                   of the camera's images, from arrival to 
 """
 
 import json
+import math
 import os
+import random
 import subprocess
 import time
 from collections.abc import Callable
@@ -47,12 +58,35 @@ _PORT = 32000 + os.getpid() % 6000 * 2
 
 Lines = list[dict]
 
+MOVES = {"static": 0, "dynamic": 1}  # scenes: whether the cube is pushed
+
+
+class NotDiscovered(RuntimeError):
+    pass
+
 
 @dataclass(frozen=True)
 class Settings:
     seconds: float = options.seconds(16.0, least=1.0, most=3600)
     robot: Literal["emulated", "mujoco"] = "emulated"
     delay: tuple[float, ...] = options.numbers((0, 25, 50, 100, 200), "ms", most=options.LONGEST_DELAY_MS)
+    seeds: int = options.option(0, "count", 0, 10_000)
+    seed: int = options.seed()
+    scenes: tuple[str, ...] = options.names(None, lambda: MOVES)
+
+
+def drawn(seed: int) -> dict[str, object]:
+    """What the far side does not know of itself in the run with this seed, as camera_side.gd takes it."""
+    draw = random.Random(f"scenario5 {seed}")
+    place, turn = ([round(draw.gauss(0.0, size), 6) for _ in range(3)] for size in (2e-3, math.radians(0.3)))
+    friction = round(draw.uniform(0.1, 0.6), 3)
+    return {
+        "surface.stiffness": round(STIFFNESS * 2.0 ** draw.uniform(-1, 1), 1),
+        "surface.dynamic_friction": friction, "surface.static_friction": round(friction * 1.2, 3),
+        "sensor.synthetic_place_error": place, "sensor.synthetic_rotation_error": turn,
+        "sensor.synthetic_clock_error": round(draw.uniform(-0.02, 0.02), 4), "sensor.knows_support": False, "sensor.synthetic_seed": seed,
+        "robot.robot_mass_error": round(draw.uniform(-0.3, 0.3), 3), "robot.robot_friction_error": round(draw.uniform(-0.3, 0.3), 3),
+    }  # fmt: skip
 
 
 def run(given: dict[str, str], output: Path) -> dict[str, object]:
@@ -61,11 +95,15 @@ def run(given: dict[str, str], output: Path) -> dict[str, object]:
         return in_mujoco(settings)
     output.mkdir(parents=True, exist_ok=True)
     summary: dict[str, object] = {}
-    for name, moves in {"static": 0, "dynamic": 1}.items():
-        said = play(settings, moves, output)
+    for name in settings.scenes:
+        said = play(settings, MOVES[name], {}, output)
         (output / f"{name}.json").write_text(json.dumps(said))
         draw(said, settings.seconds, name, output)
         summary |= {f"{name}.{key}": value for key, value in figures(said, settings.seconds).items()}
+    unknown = {number: drawn(number) for number in range(settings.seed, settings.seed + settings.seeds)}
+    summary |= {f"unknown.seed_{number}.{key}": str(value) for number, one in unknown.items() for key, value in one.items()}
+    for name in settings.scenes if unknown else ():
+        summary |= {f"{name}.{key}": value for key, value in _without_help(settings, MOVES[name], unknown, output).items()}
     return summary
 
 
@@ -100,10 +138,27 @@ def in_mujoco(settings: Settings) -> dict[str, object]:
     return summary
 
 
-def play(settings: Settings, moves: int, output: Path) -> dict[str, Lines]:
+def _without_help(settings: Settings, moves: int, unknown: dict[int, dict[str, object]], output: Path) -> dict[str, object]:
+    found: dict[int, dict[str, float]] = {}
+    for number, one in unknown.items():
+        try:
+            found[number] = figures(play(settings, moves, one, output), settings.seconds)
+            print(f"  seed {number}: force error {found[number]['force_error_mean_N']:.3f} N", flush=True)
+        except NotDiscovered as error:
+            print(f"  seed {number}: {error}", flush=True)
+    summary: dict[str, object] = {f"seed_{number}.{key}": value for number, one in found.items() for key, value in one.items()}
+    summary["not_discovered_seeds"] = len(unknown) - len(found)
+    for key in next(iter(found.values()), {}):
+        values = [one[key] for one in found.values()]
+        summary |= {f"{key}_median": float(np.median(values)), f"{key}_p95": float(np.percentile(values, 95))}
+    return summary
+
+
+def play(settings: Settings, moves: int, unknown: dict[str, object], output: Path) -> dict[str, Lines]:
     files = {part: output / f"{part}.jsonl" for part in ("far", "operator", "direct")}
+    words = {key: json.dumps(value) for key, value in unknown.items()}
     processes = [
-        _start("far", files["far"], moves=moves, local_port=_PORT, remote_port=_PORT + 1),
+        _start("far", files["far"], moves=moves, local_port=_PORT, remote_port=_PORT + 1, **words),
         _start("operator", files["operator"], local_port=_PORT + 1, remote_port=_PORT),
         _start("direct", files["direct"], moves=moves),
     ]
@@ -142,7 +197,7 @@ def _wait(file: Path, seconds: float) -> None:
         if newest["since"] > seconds:
             return
         if newest["since"] < 0 and time.monotonic() - began > PATIENCE:
-            raise RuntimeError(f"the operator has not got all that is there: {newest.get('text', 'nothing was said')}")
+            raise NotDiscovered(f"the operator has not got all that is there: {newest.get('text', 'nothing was said')}")
         if time.monotonic() - began > PATIENCE + 3 * seconds:
             raise RuntimeError(f"{file.name} has stopped at {newest['since']} s")
 
@@ -186,8 +241,23 @@ def figures(said: dict[str, Lines], seconds: float) -> dict[str, float]:
         "force_explained_N": explained,
         "force_error_over_pose_explained": float(np.mean(error)) / explained if explained > 0.0 else float("inf"),
         "robot_touches_share": float(np.mean(np.linalg.norm(there, axis=1)[touches] > FELT)) if touches.any() else 0.0,
+        **_displayed_stiffness(here, felt),
         "frame_ms_median": float(np.median([line["frame_ms"] for line in said["far"] if line["frame_ms"] > 0.0])),
     }
+
+
+def _displayed_stiffness(here: Lines, felt: np.ndarray) -> dict[str, float]:
+    """Of the true one, which all surfaces there have: the force over the depth of the device position below its proxy."""
+    size = np.linalg.norm(felt, axis=1)
+    depth = np.array([line["depth"] for line in here])
+    presses = size > 5 * FELT
+    ratio = size[presses] / np.maximum(depth[presses], 1e-6) / STIFFNESS
+    quarter = max(1, len(ratio) // 4)
+    if not len(ratio):
+        return {}
+    return {
+        "stiffness_over_true_first": float(np.median(ratio[:quarter])), "stiffness_over_true_last": float(np.median(ratio[-quarter:])),
+    }  # fmt: skip
 
 
 def _apart_in_time(here: Lines, since: np.ndarray, direct: Lines) -> float:

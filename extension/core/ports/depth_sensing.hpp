@@ -49,7 +49,8 @@ struct SensorSettings {
     Pose camera;                  // in the scene; looks along its −z
     double min_confidence = 0.5;  // of an object to be told of, 0 to 1
     double max_rate = 30.0;       // frames looked at in a second; the others are dropped
-    double camera_delay = 0.0;    // from what a camera sees to its image, at least (unit: seconds), >= 0
+    // From what a camera sees to its image, at least; less than 0: it is taken for newer (unit: seconds).
+    double camera_delay = 0.0;
     bool wants_cloud = false;
     bool wants_surface = false;
     // Where the support is level at a known height, the camera's error of depth is learnt from it.

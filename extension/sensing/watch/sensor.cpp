@@ -207,9 +207,9 @@ void Sensor::see(const DepthImage& image, Nanoseconds arrived) {
         return;
     }
     last_frame_ = last_fade_ = arrived;
-    const Nanoseconds seen_at = camera_->has_our_clock() ? time_of_stamp(image.time_us)
-                                                         : clock_.taken_at(image.time_us, arrived) -
-                                                               from_seconds(now_.settings.camera_delay);
+    const Nanoseconds taken_at =
+        camera_->has_our_clock() ? time_of_stamp(image.time_us) : clock_.taken_at(image.time_us, arrived);
+    const Nanoseconds seen_at = taken_at - from_seconds(now_.settings.camera_delay);
     beside_loop_.begin_burst();
     const std::string wrong = observer_.look(image, now_.settings, seen_);
     beside_loop_.end_burst();
