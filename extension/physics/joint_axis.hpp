@@ -1,9 +1,10 @@
 // What acts along the one free axis of a hinge or a slider: its drive, its motor, and the way back of a body
 // that stands beyond a limit, because that was moved. Private to physics/.
 //
-// Springs are implicit (Jolt's soft constraints), and stable at any stiffness. Beyond a limit the body is led
-// back at a bounded speed, which is its velocity meanwhile: a limit that is raised under a hand pushes it by
-// the way of one tick at a time.
+// Springs are implicit (Jolt's soft constraints), and stable at any stiffness. A body that runs into a limit
+// is stopped by Jolt. One that stands farther beyond a limit than it goes in a step, because the limit was
+// moved, is led back at a bounded speed, which is its velocity meanwhile: a limit that is raised under a hand
+// pushes it by the way of one tick at a time.
 #pragma once
 
 #include "physics/joint.hpp"
@@ -25,12 +26,13 @@ public:
     JointAxis(const JointDescription& joint, JPH::TwoBodyConstraint& constraint);
 
     // Before a step.
-    void drive() const;
+    void drive(double seconds) const;
 
 private:
     enum class Kind { none, hinge, slider };
 
     double place() const;
+    double speed() const;
     void limit(const JointRange& range) const;
     void move(JPH::EMotorState state, double velocity, double target) const;
     void set_motor(double stiffness, double damping, double strongest) const;

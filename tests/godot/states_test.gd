@@ -13,8 +13,8 @@ const WITH_STATE := [
 	"MMTLink",
 	"HapticDepthSensor"
 ]
-## Parts of a body: they neither start nor stop, and what keeps them from being touched is a problem.
-const WITHOUT_STATE := ["HapticMesh", "HapticSoftBody"]
+## Parts of a body or of a joint: they neither start nor stop, and what keeps them from acting is a problem.
+const WITHOUT_STATE := ["HapticMesh", "HapticSoftBody", "HapticJointDrive"]
 
 
 func _classes_of(base: String) -> PackedStringArray:
