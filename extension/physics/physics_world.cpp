@@ -453,18 +453,6 @@ Vec3 PhysicsWorld::velocity_at(BodyId id, const Vec3& world_point) const {
     return linear_velocity(id) + glm::cross(angular_velocity(id), world_point - center_of_mass(id));
 }
 
-double PhysicsWorld::inverse_mass(BodyId id, const Vec3& world_point, const Vec3& direction) const {
-    const JPH::Body* body = impl_->find(id);
-    if (body == nullptr || !body->IsDynamic())
-        return 0.0;
-    const JPH::MotionProperties& motion = *body->GetMotionProperties();
-    const JPH::Vec3 along = units::plain(direction);
-    const JPH::Vec3 lever =
-        JPH::Vec3(units::position(world_point) - body->GetCenterOfMassPosition()).Cross(along);
-    return motion.GetInverseMass() +
-           lever.Dot(motion.MultiplyWorldSpaceInverseInertiaByVector(body->GetRotation(), lever));
-}
-
 double PhysicsWorld::mass(BodyId id) const {
     const JPH::Body* body = impl_->find(id);
     return body != nullptr ? impl_->record(*body).mass * impl_->record(*body).factors.mass : 0.0;

@@ -146,10 +146,6 @@ public:
     void wake(BodyId id);
     void sleep(BodyId id);
 
-    // A body is light to a spring k when k dt^2 exceeds this share of its mass: a step gives it the spring's
-    // force at its end, else that at its begin (spring_push.hpp).
-    static constexpr double light = 0.05;
-
     // For the next step only; wakes a dynamic body, does nothing to any other.
     void apply_force(BodyId id, const Vec3& force, const Vec3& world_point);  // (units: newtons, meters)
     // The same for a hand's spring: stable for bodies however light, where apply_force() rings
@@ -210,10 +206,7 @@ public:
     Vec3 linear_velocity(BodyId id) const;   // of the centre of mass (unit: meters per second)
     Vec3 angular_velocity(BodyId id) const;  // (unit: radians per second)
     Vec3 velocity_at(BodyId id, const Vec3& world_point) const;  // of the body's material there
-    // Speed along the unit `direction` that a unit impulse along it at a point gives that point (unit:
-    // 1/kilograms); 0 for what cannot move.
-    double inverse_mass(BodyId id, const Vec3& world_point, const Vec3& direction) const;
-    double mass(BodyId id) const;  // (unit: kilograms); 0 for what cannot move
+    double mass(BodyId id) const;                                // (unit: kilograms); 0 for what cannot move
     Motion motion(BodyId id) const;
     bool awake(BodyId id) const;
     bool touching(BodyId first, BodyId second) const;  // each other, in the last step

@@ -18,6 +18,9 @@ namespace {
 // Jolt's own cannot be made on its own.
 struct PlainSettings final : JPH::ConstraintSettings {};
 
+// A body is light to a spring when k dt^2 exceeds this share of its mass.
+constexpr float light = 0.05f;
+
 // The share s of a free body (see the header): enough to come to rest in the end, too little to tell.
 constexpr float least_share = 0.01f;
 
@@ -74,7 +77,7 @@ void SpringPush::SetupVelocityConstraint(float seconds) {
     push_.elapsed += seconds;
 
     const float resistance = push_.damping + push_.stiffness * seconds;
-    is_light_ = inverse_mass_along_ * seconds * resistance > static_cast<float>(PhysicsWorld::light);
+    is_light_ = inverse_mass_along_ * seconds * resistance > light;
     held_ = is_light_ ? held_iterations : 0;
     SetNumVelocityStepsOverride(is_light_ ? light_iterations : 0);
     gives_ = false;

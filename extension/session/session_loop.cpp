@@ -241,45 +241,6 @@ bool SessionLoop::touches_other_walls(ProxySlot& slot) const {
     return before.most > 0.0 && now.most > 0.0 && before != now;
 }
 
-SessionLoop::TouchedBodies SessionLoop::touched_by(const Proxy& proxy) {
-    TouchedBodies bodies;
-    bodies.fill(-1);
-    const std::span<const Touch> touching = proxy.touching();
-    for (std::size_t i = 0; i < std::min(touching.size(), bodies.size()); ++i) {
-        bodies[i] = touching[i].body;
-    }
-    return bodies;
-}
-
-SessionLoop::MassesOfContacts SessionLoop::inverse_masses(const Proxy& proxy) const {
-    MassesOfContacts result{};
-    const std::span<const Touch> touching = proxy.touching();
-    for (std::size_t i = 0; i < std::min(touching.size(), result.size()); ++i) {
-        const Body& touched = bodies_[handle_of_slot_[static_cast<std::size_t>(touching[i].body)]];
-        if (touched.motion == Motion::Dynamic) {
-            result[i] = physics_.inverse_mass(touched.id, touching[i].point, touching[i].normal);
-        }
-    }
-    return result;
-}
-
-// A light body gets in each tick the spring's force at its end, which the hand feels in the next one. So in
-// the tick in which it is first touched the hand feels nothing of that spring yet: what one gives the other
-// gets.
-Vec3 SessionLoop::felt_early(const HandForce& force, const TouchedBodies& before,
-                             const MassesOfContacts& inverse_mass) const {
-    Vec3 early(0.0);
-    for (int i = 0; i < force.contact_count; ++i) {
-        const ContactForce& part = force.contacts[i];
-        const double share =
-            inverse_mass[static_cast<std::size_t>(i)] * part.wall.stiffness * seconds_ * seconds_;
-        if (share > PhysicsWorld::light && std::ranges::find(before, part.body) == before.end()) {
-            early += part.by_spring;
-        }
-    }
-    return early;
-}
-
 // Bodies get their part only now: what a correction of this tick changes is in it.
 void SessionLoop::press_all() {
     for (ProxySlot& slot : proxies_) {
@@ -325,7 +286,6 @@ void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
         glm::distance(slot.hand, slot.state.hand) > slot.proxy->settings().radius) {
         slot.proxy->restart();
     }
-    const TouchedBodies before = touched_by(*slot.proxy);
     const ProxyTick tick = slot.proxy->move(scene_, slot.hand, seconds_);
     HandForce& force = slot.parts;
     DeviceSlot& device = devices_[slot.description.device];
@@ -335,11 +295,9 @@ void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
     const bool changed = std::exchange(slot.changed, false);
     const Wall within = feel_punctures(slot, hand, aid.damping);
     const double left = aid.damping - damping_needed(within.stiffness, hand.lag) - within.damping;
-    const MassesOfContacts inverse_mass = inverse_masses(*slot.proxy);
     force = contact_force(scene_, slot.proxy->touching(), tick.slide, slot.hand_velocity, seconds_,
-                          {hand.lag, left, slot.description.finger.stiffness, inverse_mass});
-    const Vec3 early = felt_early(force, before, inverse_mass);
-    slot.pressed = force.total - early;
+                          {hand.lag, left, slot.description.finger.stiffness});
+    slot.pressed = force.total;
     note_walls(slot, device);
     break_surfaces(slot, force);
     add_surface_effects(scene_, slot.proxy->touching(), motion, now, seconds_, slot.effects, force);
@@ -348,7 +306,7 @@ void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
         smooth(force, slot.force_before - slot.effects.besides);
     }
     const double max_change = max_pull_rate * seconds_ / device.workspace.force_scale;
-    slot.effects.besides = aid.force + slot.punctures.total() - early +
+    slot.effects.besides = aid.force + slot.punctures.total() +
                            gradual_pull(attract(slot, false), max_change, magnet_changes_, slot.effects);
     slot.force = force.total + slot.effects.besides;
     slot.step = step_of(slot);
@@ -472,14 +430,9 @@ void SessionLoop::press_bodies(const ProxySlot& slot) {
         }
         const TouchMaterial& material = *feel_at(scene_, part.body, part.feature).material;
         const bool sticks = !slot.sliding && material.static_friction > 0.0;
-        // Of a rigid body the damper's force is the mean over the tick already.
-        SpringForce spring{-part.on_hand,
-                           part.point,
-                           part.wall.stiffness,
-                           pressed.soft ? part.wall.damping : 0.0,
-                           slot.hand_velocity,
-                           sticks,
-                           {}};
+        SpringForce spring{
+            -part.on_hand, part.point, part.wall.stiffness, part.wall.damping, slot.hand_velocity,
+            sticks,        {}};
         if (pressed.soft) {
             if (spring.stiffness > 0.0) {
                 pressed.soft->press(scene_.body(part.body).pose, part.feature, spring);

@@ -337,14 +337,6 @@ private:
     void press_bodies(const ToolSlot& slot);
     void describe(ToolSlot& slot, const ToolTick& tick) const;
     FadingForce::Step step_of(const ProxySlot& slot) const;
-    // By contact; -1: none.
-    using TouchedBodies = std::array<int, HandForce::max_contacts>;
-    static TouchedBodies touched_by(const Proxy& proxy);
-    // See SafeWalls.
-    using MassesOfContacts = std::array<double, HandForce::max_contacts>;
-    MassesOfContacts inverse_masses(const Proxy& proxy) const;
-    Vec3 felt_early(const HandForce& force, const TouchedBodies& before,
-                    const MassesOfContacts& inverse_mass) const;
     bool touches_other_walls(ProxySlot& slot) const;
     void press_all();
     Vec3 attract(const ProxySlot& slot, bool press);

@@ -176,38 +176,6 @@ TEST(Coupling, ABodyOfAFewMillimetresIsPushedAsSteadily) {
     EXPECT_EQ(result.feel.lost, 0);
 }
 
-// Spring and damper would each stop a light body many times over within a tick, wherever in a tick they meet.
-// Where a damper would pull, the hand does not feel what is left of the spring.
-TEST(Coupling, ALightBodyGetsWhatTheHandGives) {
-    for (const double mass : {0.001, 0.01, 1.0}) {
-        for (const double damping : {0.0, 3.0}) {
-            for (const double phase : {0.0, 0.3, 0.7}) {
-                SessionSettings settings;
-                settings.physics.gravity = Vec3(0.0);
-                Session session(settings);
-                Finger finger(session);
-                BodyAddition ball = thing(SphereShape{0.01}, Vec3(0.0), mass);
-                ball.touch_material = {1000.0, damping, 0.0, 0.0};
-                const SessionHandle handle = session.add_body(ball).handle;
-                finger.device.position.x = -0.02 - 1e-4 * phase;
-                double given = 0.0;  // (unit: newton seconds)
-                for (int i = 0; i < 200; ++i) {
-                    finger.go({1e-4, 0.0, 0.0});
-                    session.tick((i + 1) * period);
-                    given -= finger.device.force.x * seconds_a_tick;
-                }
-                session.refresh();
-                const SessionSnapshot& snapshot = session.snapshot();
-                const BodyState* const state = state_of(snapshot.bodies, snapshot.body_count, handle);
-                ASSERT_NE(state, nullptr);
-                const double share = damping == 0.0 || mass > 0.1 ? 0.01 : mass < 0.01 ? 0.2 : 0.07;
-                EXPECT_NEAR(mass * state->linear_velocity.x, given, share * given)
-                    << mass << " kg, " << damping << " N s/m, " << phase;
-            }
-        }
-    }
-}
-
 TEST(Coupling, AStackPushedFromTheSideComesAlong) {
     Table table;
     std::vector<SessionHandle> boxes;

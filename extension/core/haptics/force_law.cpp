@@ -82,9 +82,7 @@ HandForce contact_force(const TouchScene& scene, std::span<const Touch> touching
         if (force.contact_count == HandForce::max_contacts) {
             break;
         }
-        auto [wall, wanted, secant] = press(feel_at(scene, contact), stretched, safe);
-        const double slowed = safe.inverse_mass[static_cast<std::size_t>(force.contact_count)] * seconds;
-        wall.damping /= 1.0 + wall.damping * slowed;
+        const auto [wall, wanted, secant] = press(feel_at(scene, contact), stretched, safe);
         const Vec3 surface_way = way_of_surface(scene, contact);
         const double approach = -glm::dot(hand_velocity - surface_way / seconds, contact.normal);
         const double spring = secant * contact.pressure;
@@ -95,7 +93,6 @@ HandForce contact_force(const TouchScene& scene, std::span<const Touch> touching
         part.feature = contact.feature;
         part.point = contact.point;
         part.on_hand = contact.force_direction * std::max(0.0, spring + damper) - held * secant;
-        part.by_spring = part.on_hand - contact.force_direction * std::max(0.0, damper);
         part.wall = wall;
         part.wanted_stiffness = wanted;
         force.source += glm::dot(part.on_hand, surface_way);

@@ -1,7 +1,6 @@
 // From where proxy and hand are to what the hand feels and what the touched bodies get.
 #pragma once
 
-#include <array>
 #include <limits>
 #include <span>
 
@@ -17,11 +16,10 @@ enum class ForceLaw {
 };
 
 struct ContactForce {
-    int body = -1;        // slot in the TouchScene
-    FeatureId feature;    // of the scene, now
-    Vec3 point{0.0};      // in the world (unit: meters)
-    Vec3 on_hand{0.0};    // (unit: newtons); the body gets the opposite
-    Vec3 by_spring{0.0};  // of it, without the damper (unit: newtons)
+    int body = -1;      // slot in the TouchScene
+    FeatureId feature;  // of the scene, now
+    Vec3 point{0.0};    // in the world (unit: meters)
+    Vec3 on_hand{0.0};  // (unit: newtons); the body gets the opposite
     // That has pressed, as stiff as it is at this depth: the material's, or what of it is safe.
     Wall wall;
     double wanted_stiffness = 0.0;  // of the material's (unit: newtons per meter)
@@ -42,9 +40,6 @@ struct SafeWalls {
     double device_damping = std::numeric_limits<double>::infinity();  // (unit: newton seconds per meter)
     // Of the pad between hand and surface; 0: there is none (unit: newtons per meter).
     double pad_stiffness = 0.0;
-    // What is touched gains so much speed along the normal by a unit impulse there, by contact; 0: it does
-    // not move (unit: 1/kilograms).
-    std::array<double, HandForce::max_contacts> inverse_mass{};
 };
 
 // A surface under a pad. Of the way that both give, the surface's share is s = k_pad / (k_pad + K): together
@@ -53,9 +48,8 @@ Wall under_pad(const Wall& surface, double pad_stiffness);
 
 // Each contact presses with its own material's stiffness and damping. What friction holds (`slide`, the pull
 // left along the surfaces) is shared among the contacts by how much each presses. Damping acts against the
-// speed of the hand into the surface, relative to the body, and never pulls. It is the mean over the tick, in
-// which it slows what it pushes: c v / (1 + c dt / m). So a light body gets what the hand feels, and is not
-// thrown. `seconds` is the tick (unit: seconds).
+// speed of the hand into the surface, relative to the body, and never pulls. `seconds` is the tick (unit:
+// seconds).
 HandForce contact_force(const TouchScene& scene, std::span<const Touch> touching, const Vec3& slide,
                         const Vec3& hand_velocity, double seconds, const SafeWalls& safe = {});
 
