@@ -30,7 +30,7 @@ CONTENTS = {
         "stress", "proof",
     ],
     "Internals": [
-        "development", "architecture", "proxy_steps", "tolerances", "notebook/proxy", "notebook/tool", "notebook/teleoperation", "notebook/soft", "roadmap",
+        "development", "architecture", "proxy_steps", "tolerances", "notebook/proxy", "notebook/tool", "notebook/teleoperation", "notebook/soft", "notebook/physics", "roadmap",
         "changes",
     ],
     "Project": ["CONTRIBUTING", "SECURITY", "CODE_OF_CONDUCT"],
