@@ -53,7 +53,7 @@ public:
     // what was given too little is kept for later (unit: joules).
     static constexpr double thickest = 30.0;
     static constexpr double taken_back_within = 0.003;
-    static constexpr double tolerated = 2e-4;
+    static constexpr double tolerated = 5e-4;
     // Silent for so long it begins to fade, and is gone after as long again.
     static constexpr Nanoseconds lives = 100'000'000;
 
