@@ -70,7 +70,7 @@ struct Scene {
         context.engine_moves = engine_moves;
         mirrors.synchronise(context);
         session.tick(static_cast<Nanoseconds>(ticks++) * 1'000'000);
-        if (session.refresh()) {
+        if (session.refresh() && !engine_moves) {  // the engine shows them itself
             for (std::size_t i = 0; i < session.snapshot().body_count; ++i) {
                 mirrors.show(session.snapshot().bodies[i], session.snapshot().tick, session);
             }
