@@ -77,17 +77,6 @@ double JointAxis::place() const {
     return units::meters(first.GetAxisX().Dot(way));
 }
 
-// As ranges count; at least that along the axis.
-double JointAxis::speed() const {
-    const JPH::Body &first = *constraint_->GetBody1(), &second = *constraint_->GetBody2();
-    if (kind_ == Kind::hinge) {
-        return (second.GetAngularVelocity() - first.GetAngularVelocity()).Length();
-    }
-    const JPH::RVec3 at =
-        second.GetCenterOfMassTransform() * constraint_->GetConstraintToBody2Matrix().GetTranslation();
-    return units::meters((second.GetPointVelocity(at) - first.GetPointVelocity(at)).Length());
-}
-
 void JointAxis::limit(const JointRange& range) const {
     if (kind_ == Kind::hinge) {
         const double half_turn = std::numbers::pi;
@@ -150,7 +139,7 @@ void JointAxis::act(double at) const {
     move(JPH::EMotorState::PositionAndVelocity, 0.0, goal);
 }
 
-void JointAxis::drive(double seconds) const {
+void JointAxis::drive() {
     if (kind_ == Kind::none ||
         (!constraint_->GetBody1()->IsActive() && !constraint_->GetBody2()->IsActive())) {
         return;
@@ -158,7 +147,8 @@ void JointAxis::drive(double seconds) const {
     const double at = place();
     const bool is_hinge = kind_ == Kind::hinge;
     const double over = range_.lower <= range_.upper ? beyond(range_, at) : 0.0;
-    if (std::abs(over) <= std::max(is_hinge ? angular_slack : slack, 1.01 * speed() * seconds)) {
+    returns_ = returns_ && std::abs(over) > (is_hinge ? angular_slack : slack);
+    if (!returns_) {
         if (range_.lower <= range_.upper) {
             limit(range_);
         }

@@ -1,10 +1,9 @@
 // What acts along the one free axis of a hinge or a slider: its drive, its motor, and the way back of a body
 // that stands beyond a limit, because that was moved. Private to physics/.
 //
-// Springs are implicit (Jolt's soft constraints), and stable at any stiffness. A body that runs into a limit
-// is stopped by Jolt. One that stands farther beyond a limit than it goes in a step, because the limit was
-// moved, is led back at a bounded speed, which is its velocity meanwhile: a limit that is raised under a hand
-// pushes it by the way of one tick at a time.
+// Springs are implicit (Jolt's soft constraints), and stable at any stiffness. Where the joint begins beyond
+// a limit, the body is led back at a bounded speed, which is its velocity meanwhile: a limit that is raised
+// under a hand pushes it by the way of one tick at a time.
 #pragma once
 
 #include "physics/joint.hpp"
@@ -26,13 +25,12 @@ public:
     JointAxis(const JointDescription& joint, JPH::TwoBodyConstraint& constraint);
 
     // Before a step.
-    void drive(double seconds) const;
+    void drive();
 
 private:
     enum class Kind { none, hinge, slider };
 
     double place() const;
-    double speed() const;
     void limit(const JointRange& range) const;
     void move(JPH::EMotorState state, double velocity, double target) const;
     void set_motor(double stiffness, double damping, double strongest) const;
@@ -47,6 +45,7 @@ private:
     JointDrive drive_;
     double motor_speed_ = 0.0;
     double motor_torque_ = 0.0;
+    bool returns_ = true;  // it began beyond a limit, and has not been within since
 };
 
 }  // namespace tactus

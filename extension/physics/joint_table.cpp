@@ -205,12 +205,12 @@ void JointTable::shape_changed(const JPH::Body& body, JPH::Vec3Arg way) {
             joint.constraint->NotifyShapeChanged(body.GetID(), way);
 }
 
-void JointTable::begin_step(JointSwing& swing, double seconds) const {
+void JointTable::begin_step(JointSwing& swing) {
     swing.clear();
     if (count_ == 0)
         return;
-    for (const Joint& joint : joints_)
-        joint.axis.drive(seconds);
+    for (Joint& joint : joints_)
+        joint.axis.drive();
     for (const Joint& joint : joints_)
         if (joint.constraint != nullptr && joint.holds_point)
             swing.begin_step(*joint.constraint->GetBody1(), *joint.constraint->GetBody2(),

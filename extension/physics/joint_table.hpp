@@ -33,7 +33,7 @@ public:
     void shape_changed(const JPH::Body& body, JPH::Vec3Arg way);
 
     // Before a step: drives all joints, and notes the points that some hold.
-    void begin_step(JointSwing& swing, double seconds) const;
+    void begin_step(JointSwing& swing);
 
     std::size_t count() const { return count_; }
 

@@ -140,7 +140,7 @@ std::uint32_t PhysicsWorld::Impl::update(double seconds, int iterations) {
     rules.begin_step(system.GetGravity(), static_cast<float>(seconds / settings.sub_steps));
     spin.begin_step(active, records, static_cast<float>(seconds));
     damping.begin_step(active, records, static_cast<float>(seconds));
-    joints.begin_step(swing, seconds);
+    joints.begin_step(swing);
     activity.in_step(true);
     const JPH::EPhysicsUpdateError error =
         system.Update(static_cast<float>(seconds), settings.sub_steps, &step_memory, &jobs);
