@@ -133,7 +133,7 @@ def included(path: str) -> frozenset[str]:
 def test_half_of_core_includes_the_header_that_the_bench_of_the_build_changes():
     (header,) = re.findall(r'^HEADER = "extension/(.*?)"', (cache.clone() / "tests/bench/build.py").read_text(), re.M)
     sources = [str(path.relative_to(cache.clone() / "extension")) for path in (cache.clone() / "extension/core").rglob("*.cpp")]
-    assert sum(header in included(source) for source in sources) >= len(sources) / 2
+    assert sum(header in included(source) for source in sources) >= len(sources) // 2
 
 
 # Plain values that go into a session and come out of it: who shows or asks them compiles without what moves a proxy.
