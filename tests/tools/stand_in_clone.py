@@ -75,10 +75,12 @@ class Clone:
             "GODOT": str(self.programs / "godot"), "JOLT_PREFIX": str(jolt), "STAND_INS": str(folder), "STAND_IN_MARK": self.mark,
             "LC_ALL": "C.UTF-8",
         }  # fmt: skip
-        # As done: the tools' packages, and the export template of that Godot.
-        (self.cache / "tactus/papers").mkdir()
+        # As done: the tools' packages, the older interfaces, and the export template of that Godot.
+        for name in ("papers", "godot-interfaces"):
+            (self.cache / "tactus" / name).mkdir()
         mark = "[cache.mark_done(p._folder(name), p._key(name)) for name in ('venv', 'papers')]"
-        code = f"import sys; sys.path[:0] = ['tools']; from setup import cache, python_tools as p; {mark}"
+        mark += "; cache.mark_done(i._crate_folder(), i.KEY)"
+        code = f"import sys; sys.path[:0] = ['tools']; from setup import cache, interfaces as i, python_tools as p; {mark}"
         subprocess.run(["/usr/bin/python3", "-B", "-c", code], cwd=self.folder, env=self.environment, check=True)
         template = folder / "godot/export_templates/4.6.3.stable/linux_release.x86_64"
         template.parent.mkdir(parents=True)

@@ -15,6 +15,7 @@
 #include <godot_cpp/classes/concave_polygon_shape3d.hpp>
 #include <godot_cpp/classes/control.hpp>
 #include <godot_cpp/classes/convex_polygon_shape3d.hpp>
+#include <godot_cpp/classes/curve.hpp>
 #include <godot_cpp/classes/curve3d.hpp>
 #include <godot_cpp/classes/cylinder_shape3d.hpp>
 #include <godot_cpp/classes/dir_access.hpp>
@@ -41,8 +42,10 @@
 #include <godot_cpp/classes/object.hpp>
 #include <godot_cpp/classes/physics_body3d.hpp>
 #include <godot_cpp/classes/physics_direct_body_state3d.hpp>
+#include <godot_cpp/classes/physics_direct_space_state3d.hpp>
 #include <godot_cpp/classes/physics_material.hpp>
 #include <godot_cpp/classes/physics_server3d.hpp>
+#include <godot_cpp/classes/physics_shape_query_parameters3d.hpp>
 #include <godot_cpp/classes/primitive_mesh.hpp>
 #include <godot_cpp/classes/project_settings.hpp>
 #include <godot_cpp/classes/rendering_server.hpp>
@@ -61,6 +64,7 @@
 #include <godot_cpp/classes/time.hpp>
 #include <godot_cpp/classes/viewport.hpp>
 #include <godot_cpp/classes/visual_instance3d.hpp>
+#include <godot_cpp/classes/world3d.hpp>
 #include <godot_cpp/classes/world_boundary_shape3d.hpp>
 #include <godot_cpp/classes/xr_controller3d.hpp>
 #include <godot_cpp/classes/xr_node3d.hpp>
@@ -146,7 +150,11 @@ void list_classes() {
     same<PackedVector3Array (ConvexPolygonShape3D::*)() const>(&ConvexPolygonShape3D::get_points);
     same<void (ConvexPolygonShape3D::*)(const PackedVector3Array&)>(&ConvexPolygonShape3D::set_points);
 
+    same<float (Curve::*)() const>(&Curve::get_max_domain);
+    same<float (Curve::*)(float) const>(&Curve::sample);
+
     same<PackedVector3Array (Curve3D::*)(int32_t, float) const>(&Curve3D::tessellate_even_length);
+    same<Vector3 (Curve3D::*)(int32_t, float) const>(&Curve3D::sample);
     same<int32_t (Curve3D::*)() const>(&Curve3D::get_point_count);
 
     same<float (CylinderShape3D::*)() const>(&CylinderShape3D::get_height);
@@ -290,6 +298,7 @@ void list_classes() {
     same<void (Node::*)(int32_t)>(&Node::set_process_priority);
 
     same<Node3D* (Node3D::*)() const>(&Node3D::get_parent_node_3d);
+    same<Ref<World3D> (Node3D::*)() const>(&Node3D::get_world_3d);
     same<Transform3D (Node3D::*)() const>(&Node3D::get_global_transform);
     same<Transform3D (Node3D::*)() const>(&Node3D::get_transform);
     same<Vector3 (Node3D::*)() const>(&Node3D::get_global_position);
@@ -333,14 +342,34 @@ void list_classes() {
     same<void (PhysicsMaterial::*)(float)>(&PhysicsMaterial::set_bounce);
     same<void (PhysicsMaterial::*)(float)>(&PhysicsMaterial::set_friction);
 
+    same<TypedArray<Dictionary> (PhysicsDirectSpaceState3D::*)(const Ref<PhysicsShapeQueryParameters3D>&,
+                                                              int32_t)>(
+        &PhysicsDirectSpaceState3D::intersect_shape);
+
     same<PhysicsServer3D* (*)()>(&PhysicsServer3D::get_singleton);
     same<PhysicsDirectBodyState3D* (PhysicsServer3D::*)(const RID&)>(&PhysicsServer3D::body_get_direct_state);
     same<PhysicsServer3D::BodyMode (PhysicsServer3D::*)(const RID&) const>(&PhysicsServer3D::body_get_mode);
     same<Variant (PhysicsServer3D::*)(const RID&, PhysicsServer3D::BodyParameter) const>(
         &PhysicsServer3D::body_get_param);
+    same<PhysicsServer3D::ShapeType (PhysicsServer3D::*)(const RID&) const>(&PhysicsServer3D::shape_get_type);
+    same<RID (PhysicsServer3D::*)(const RID&) const>(&PhysicsServer3D::body_get_space);
+    same<RID (PhysicsServer3D::*)(const RID&, int32_t) const>(&PhysicsServer3D::body_get_shape);
+    same<Transform3D (PhysicsServer3D::*)(const RID&, int32_t) const>(
+        &PhysicsServer3D::body_get_shape_transform);
+    same<Variant (PhysicsServer3D::*)(const RID&) const>(&PhysicsServer3D::shape_get_data);
+    same<Variant (PhysicsServer3D::*)(const RID&, PhysicsServer3D::BodyState) const>(
+        &PhysicsServer3D::body_get_state);
+    same<int32_t (PhysicsServer3D::*)(const RID&) const>(&PhysicsServer3D::body_get_shape_count);
+    same<uint32_t (PhysicsServer3D::*)(const RID&) const>(&PhysicsServer3D::body_get_collision_layer);
+    same<uint32_t (PhysicsServer3D::*)(const RID&) const>(&PhysicsServer3D::body_get_collision_mask);
     same<void (PhysicsServer3D::*)(const RID&, PhysicsServer3D::BodyMode)>(&PhysicsServer3D::body_set_mode);
     same<void (PhysicsServer3D::*)(const RID&, const Vector3&)>(&PhysicsServer3D::body_apply_central_impulse);
     same<void (PhysicsServer3D::*)(const RID&, const Vector3&)>(&PhysicsServer3D::body_apply_torque_impulse);
+
+    same<void (PhysicsShapeQueryParameters3D::*)(const Ref<Resource>&)>(
+        &PhysicsShapeQueryParameters3D::set_shape);
+    same<void (PhysicsShapeQueryParameters3D::*)(const Transform3D&)>(
+        &PhysicsShapeQueryParameters3D::set_transform);
 
     same<Array (PrimitiveMesh::*)() const>(&PrimitiveMesh::_create_mesh_array);
 
@@ -433,6 +462,8 @@ void list_classes() {
     same<Control* (Viewport::*)() const>(&Viewport::gui_get_hovered_control);
 
     same<AABB (VisualInstance3D::*)() const>(&VisualInstance3D::_get_aabb);
+
+    same<PhysicsDirectSpaceState3D* (World3D::*)()>(&World3D::get_direct_space_state);
 
     same<Plane (WorldBoundaryShape3D::*)() const>(&WorldBoundaryShape3D::get_plane);
 

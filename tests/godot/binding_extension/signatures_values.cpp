@@ -19,6 +19,8 @@
 #include <godot_cpp/variant/packed_string_array.hpp>
 #include <godot_cpp/variant/packed_vector2_array.hpp>
 #include <godot_cpp/variant/packed_vector3_array.hpp>
+#include <godot_cpp/variant/plane.hpp>
+#include <godot_cpp/variant/rid.hpp>
 #include <godot_cpp/variant/string.hpp>
 #include <godot_cpp/variant/string_name.hpp>
 #include <godot_cpp/variant/transform3d.hpp>
@@ -93,6 +95,11 @@ void list_values() {
     constructor<Color, float, float, float, float>();
 
     constructor<Quaternion, real_t, real_t, real_t, real_t>();
+
+    constructor<RID>();
+    constructor<RID, const RID&>();
+    same<bool (RID::*)() const>(&RID::is_valid);
+    same<int64_t (RID::*)() const>(&RID::get_id);
 
     same<Transform3D (Transform3D::*)() const>(&Transform3D::affine_inverse);
     same<Transform3D (Transform3D::*)(const Transform3D&) const>(&Transform3D::operator*);
@@ -253,7 +260,10 @@ void list_values() {
     same<PackedStringArray (Variant::*)() const>(&Variant::operator PackedStringArray);
     same<PackedVector2Array (Variant::*)() const>(&Variant::operator PackedVector2Array);
     same<PackedVector3Array (Variant::*)() const>(&Variant::operator PackedVector3Array);
+    same<Plane (Variant::*)() const>(&Variant::operator Plane);
+    same<RID (Variant::*)() const>(&Variant::operator godot::RID);
     same<String (Variant::*)() const>(&Variant::operator String);
+    same<Transform3D (Variant::*)() const>(&Variant::operator Transform3D);
     same<Variant::Type (Variant::*)() const>(&Variant::get_type);
     same<Variant& (Variant::*)(Variant&&)>(&Variant::operator=);
     same<Vector3 (Variant::*)() const>(&Variant::operator Vector3);
