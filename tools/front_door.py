@@ -74,7 +74,7 @@ def needed(name: str, given: Given) -> list[Step]:
         return steps.for_platforms([emulated])
     if given.has("--device-access"):
         return []
-    if name == "docs" and not given.has("--figures"):
+    if name == "docs" and not (given.has("--figures") or given.has("--pictures")):
         return [steps.python()]
     plan = steps.dependencies()
     if given.has("--with-sensing") or (name == "bench" and "sensing" in given.words and pcl.can_fetch()):
