@@ -34,6 +34,26 @@ const SCENES := {
 		"Effects",
 		"A slider in the air: it clicks from mark to mark, rubs a little, and ends at a wall on either side."
 	],
+	"knob":
+	[
+		"A button and a knob",
+		"Press the button: it clicks, and the lamp changes. Turn the knob by its tab: it rests every 30 degrees."
+	],
+	"pen":
+	[
+		"A whiteboard pen",
+		"Write on the board: the firmer you press, the wider the line, and it rubs a little."
+	],
+	"needle":
+	[
+		"A needle",
+		"Push it through skin, fat and muscle: each resists, breaks, and holds the shaft until you draw it out."
+	],
+	"guided_study":
+	[
+		"A guided study",
+		"An arm follows the line three times: without help, attracted by the line, and held to it."
+	],
 	"mesh_library":
 	["Meshes", "Run along rims, through holes and over edges: every triangle is felt as it is drawn."],
 	"globe":
@@ -65,6 +85,8 @@ const SCENES := {
 	],
 	"stack":
 	["A stack", "Take the upper boxes off the lower ones: the deeper, the more weight there is to feel."],
+	"tower":
+	["A tower", "Push single blocks out of the tower: how long does it stand, and how hard did you knock?"],
 	"hinge_door":
 	["A door", "Push it open: lightly far from its hinge, hard close to it, and not beyond a right angle."],
 	"gate":
