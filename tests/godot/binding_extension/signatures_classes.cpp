@@ -342,9 +342,8 @@ void list_classes() {
     same<void (PhysicsMaterial::*)(float)>(&PhysicsMaterial::set_bounce);
     same<void (PhysicsMaterial::*)(float)>(&PhysicsMaterial::set_friction);
 
-    same<TypedArray<Dictionary> (PhysicsDirectSpaceState3D::*)(const Ref<PhysicsShapeQueryParameters3D>&,
-                                                              int32_t)>(
-        &PhysicsDirectSpaceState3D::intersect_shape);
+    same<TypedArray<Dictionary> (PhysicsDirectSpaceState3D::*)(
+        const Ref<PhysicsShapeQueryParameters3D>&, int32_t)>(&PhysicsDirectSpaceState3D::intersect_shape);
 
     same<PhysicsServer3D* (*)()>(&PhysicsServer3D::get_singleton);
     same<PhysicsDirectBodyState3D* (PhysicsServer3D::*)(const RID&)>(&PhysicsServer3D::body_get_direct_state);
