@@ -3,7 +3,7 @@
 // and on rough meshes.
 //
 //     proxy [--only=PATTERN] [--most=1310720] [--ticks=N] [--rounds=5] [--checks=N] [--replays=3] [--work=N]
-//           [--whole]
+//           [--whole] [--three_pass --epsilon=M --epsilon_min=M --epsilon_ahead=M]
 //     proxy --mesh=FILE.obj --hip=FILE.csv --radius=R [--static-friction=F --dynamic-friction=F]
 //     [--two-sided]
 //           --trace=OUT.csv
@@ -15,6 +15,9 @@
 //
 // Rough meshes are touched as in a world: through what the sphere can touch of them; with --whole through all
 // of their triangles, as in the first seconds of a large one and while it deforms.
+//
+// With --three_pass the thesis's own proxy (proxy/three_pass.hpp) plays the even and the rough meshes in
+// place of ours, with those epsilons.
 //
 // Times are those of one whole tick (motion and force) on one processor. Even meshes: of several rounds, of
 // the proxy and of the others' queries in turn, the median counts. Rough meshes: each tick the least of three
@@ -48,6 +51,13 @@ int measure_all(shared::Options& options) {
     rough.max_work = static_cast<std::int64_t>(options.number("work", static_cast<double>(rough.max_work)));
     rough.narrowed = !options.has("whole");
     rough.max_triangles = static_cast<int>(options.number("most", rough.max_triangles));
+    if (options.has("three_pass")) {
+        bench::Epsilons epsilons;
+        epsilons.base = options.number("epsilon", epsilons.base);
+        epsilons.least = options.number("epsilon_min", epsilons.least);
+        epsilons.ahead = options.number("epsilon_ahead", epsilons.ahead);
+        even.three_pass = rough.three_pass = epsilons;
+    }
     if (!options.understood() || even.ticks < 1 || rough.ticks < 1 || even.rounds < 1 || rough.replays < 1) {
         return 2;
     }
@@ -57,16 +67,18 @@ int measure_all(shared::Options& options) {
     const shared::SpanClock clock;
     shared::Report report;
     bench::measure_even(clock, even, report);
-    if (shared::is_chosen("friction", even.only)) {
-        bench::measure_friction(report);
+    if (!even.three_pass) {
+        if (shared::is_chosen("friction", even.only)) {
+            bench::measure_friction(report);
+        }
+        if (shared::is_chosen("still", even.only)) {
+            bench::measure_still_hand(report);
+        }
+        if (shared::is_chosen("kernel.", even.only)) {
+            bench::measure_kernels(clock, even.rounds, report);
+        }
+        bench::measure_bodies(clock, bodies, report);
     }
-    if (shared::is_chosen("still", even.only)) {
-        bench::measure_still_hand(report);
-    }
-    if (shared::is_chosen("kernel.", even.only)) {
-        bench::measure_kernels(clock, even.rounds, report);
-    }
-    bench::measure_bodies(clock, bodies, report);
     bench::measure_rough(clock, rough, report);
     return report.write_json(shared::result_path("proxy")) ? 0 : 1;
 }

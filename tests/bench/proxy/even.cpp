@@ -8,15 +8,16 @@
 #include <cstdio>
 #include <memory>
 #include <numbers>
+#include <tuple>
+#include <utility>
 
-#include "core/haptics/force_law.hpp"
+#include "proxy/players.hpp"
 #include "proxy/rivals.hpp"
 #include "shared/hand_paths.hpp"
 #include "shared/judge_tree.hpp"
 #include "shared/meshes.hpp"
 #include "shared/reference_descent.hpp"
 #include "shared/settled_shape.hpp"
-#include "shared/touch_rig.hpp"
 
 namespace tactus::bench {
 
@@ -24,46 +25,55 @@ namespace {
 
 using shared::Report;
 using shared::SpanClock;
-using shared::TouchRig;
 
 struct Tick {
     Vec3 hand;
-    ProxyTick proxy;
+    PlayedTick proxy;
     Segment segment;
     double nanoseconds = 0.0;
-    bool touching = false;
 };
 
-std::vector<Tick> replay(const SpanClock& clock, TouchRig& rig, const std::vector<Vec3>& way) {
+template <class Player>
+std::vector<Tick> replay(const SpanClock& clock, Player& player, const std::vector<Vec3>& way) {
     std::vector<Tick> ticks;
     ticks.reserve(way.size());
     Vec3 before = way.front();
     for (const Vec3& hand : way) {
         const std::uint64_t start = clock.now();
-        const ProxyTick tick = rig.tick(hand);
-        const HandForce force = contact_force(rig.scene, rig.proxy.touching(), tick.slide, Vec3(0.0), 1e-3);
+        const PlayedTick tick = player.tick(hand);
         const std::uint64_t end = clock.now();
-        ticks.push_back({hand, tick, {before, hand}, clock.nanoseconds(start, end), force.contact_count > 0});
+        ticks.push_back({hand, tick, {before, hand}, clock.nanoseconds(start, end)});
         before = tick.position;
     }
     return ticks;
 }
 
+bool is_touching(const Tick& tick) {
+    return tick.proxy.touching;
+}
+
 struct Errors {
-    double rms = 0.0, max = 0.0, direction = 0.0;  // (unit: meters, meters, degrees)
+    double rms = 0.0, p99 = 0.0, max = 0.0;  // (unit: meters)
+    double direction = 0.0;                  // (unit: degrees)
     int unsettled = 0, stuck = 0, checked = 0;
+    int passes = 0;  // ticks in which the center went through a triangle
 };
 
 // A tick is stuck when the proxy stops short of the place that descent reaches from it.
 Errors errors_of(const std::vector<Tick>& ticks, const shared::JudgeTree& tree, double radius, int checks) {
     shared::ReferenceDescent reference(tree, radius);
-    const auto touching = static_cast<int>(std::ranges::count_if(ticks, &Tick::touching));
+    const auto touching = static_cast<int>(std::ranges::count_if(ticks, is_touching));
     const int every = std::max(1, touching / std::max(1, checks));
     Errors errors;
+    std::vector<double> all;
     double sum = 0.0;
     int seen = 0;
+    Vec3 before = ticks.front().proxy.position;
     for (const Tick& tick : ticks) {
-        if (!tick.touching) {
+        errors.passes += !(tick.proxy.status & proxy_absent) &&
+                         tree.first_crossing(before, tick.proxy.position - before) <= 1.0;
+        before = tick.proxy.position;
+        if (!tick.proxy.touching) {
             continue;
         }
         const bool unfinished = tick.proxy.status & proxy_unfinished;
@@ -82,8 +92,10 @@ Errors errors_of(const std::vector<Tick>& ticks, const shared::JudgeTree& tree, 
         errors.max = std::max(errors.max, error);
         errors.stuck += error > 1e-5 || unfinished;
         sum += error * error;
+        all.push_back(error);
         ++errors.checked;
     }
+    errors.p99 = shared::quantile(all, 0.99);
     errors.rms = errors.checked > 0 ? std::sqrt(sum / errors.checked) : 0.0;
     return errors;
 }
@@ -91,7 +103,7 @@ Errors errors_of(const std::vector<Tick>& ticks, const shared::JudgeTree& tree, 
 std::vector<Segment> contact_segments(const std::vector<Tick>& ticks, std::size_t count) {
     std::vector<Segment> segments;
     for (const Tick& tick : ticks) {
-        if (tick.touching) {
+        if (tick.proxy.touching) {
             segments.push_back(tick.segment);
         }
     }
@@ -119,8 +131,8 @@ struct Rounds {
         for (std::size_t i = 0; i < ticks.size(); ++i) {
             const Tick& tick = ticks[i];
             least[i] = std::min(least[i], tick.nanoseconds * 1e-3);
-            (tick.touching ? contact : free).push_back(tick.nanoseconds * 1e-3);
-            sum += tick.touching ? tick.nanoseconds * 1e-3 : 0.0;
+            (tick.proxy.touching ? contact : free).push_back(tick.nanoseconds * 1e-3);
+            sum += tick.proxy.touching ? tick.nanoseconds * 1e-3 : 0.0;
         }
         contact_mean.push_back(sum / std::max<double>(1.0, static_cast<double>(contact.size())));
         contact_median.push_back(shared::quantile(contact, 0.5));
@@ -175,21 +187,32 @@ struct Built {
     }
 };
 
-// One round of everybody after the other, several times over: what the machine takes away meanwhile hits all
-// alike.
+// The ticks, and the bytes that the proxy has of the mesh.
+std::pair<std::vector<Tick>, double> play(const SpanClock& clock, const EvenSettings& settings,
+                                          const Built& built, double radius, const std::vector<Vec3>& way) {
+    if (settings.three_pass) {
+        ThreePassPlayer player(built.judge, radius, *settings.three_pass);
+        return {replay(clock, player, way), player.bytes()};
+    }
+    OurPlayer player(built.shape, radius, ProxySettings{}.max_work);
+    return {replay(clock, player, way), player.bytes()};
+}
+
+// One round of each player after the other, several times over: what the machine takes away meanwhile hits
+// all alike.
 void measure(const SpanClock& clock, const EvenSettings& settings, const std::string& name,
              const Built& built, double radius, const std::vector<Vec3>& way, Report& report) {
     Rounds rounds;
     std::vector<Tick> ticks;
     std::vector<Segment> segments;
-    const std::vector<std::unique_ptr<Rival>> rivals = make_rivals(built.mesh, radius);
+    std::vector<std::unique_ptr<Rival>> rivals;
+    if (!settings.three_pass) {
+        rivals = make_rivals(built.mesh, radius);
+    }
     std::vector<std::vector<double>> rival_times(rivals.size());
     double bytes = 0.0;
     for (int round = 0; round < settings.rounds; ++round) {
-        TouchRig rig(radius);
-        rig.add(built.shape);
-        bytes = static_cast<double>(rig.scene.parts()[0].part->tree()->bytes());
-        ticks = replay(clock, rig, way);
+        std::tie(ticks, bytes) = play(clock, settings, built, radius, way);
         rounds.add(ticks);
         if (round == 0) {
             segments = contact_segments(ticks, 3'000);
@@ -207,9 +230,11 @@ void measure(const SpanClock& clock, const EvenSettings& settings, const std::st
     report.set(name + ".contact_p99_us", median(rounds.contact_p99));
     report.set(name + ".max_us", rounds.max());
     report.set(name + ".free_median_us", median(rounds.free_median));
-    report.set(name + ".contact_ticks", static_cast<double>(std::ranges::count_if(ticks, &Tick::touching)));
+    report.set(name + ".contact_ticks", static_cast<double>(std::ranges::count_if(ticks, is_touching)));
     report.set(name + ".error_rms", errors.rms);
+    report.set(name + ".error_p99", errors.p99);
     report.set(name + ".error_max", errors.max);
+    report.set(name + ".passes", errors.passes);
     report.set(name + ".force_direction_max_deg", errors.direction);
     report.set(name + ".stuck_ticks", errors.stuck);
     report.set(name + ".checked_ticks", errors.checked);
@@ -243,7 +268,8 @@ void measure_mesh(const SpanClock& clock, const EvenSettings& settings, const st
         if (!built) {
             built = std::make_unique<const Built>(mesh, settings.rounds);
         }
-        measure(clock, settings, one, *built, radius, way(radius), report);
+        const std::string reported = settings.three_pass ? three_pass_prefix + one : one;
+        measure(clock, settings, reported, *built, radius, way(radius), report);
     }
 }
 

@@ -10,14 +10,13 @@
 #include <numeric>
 #include <span>
 
-#include "core/haptics/force_law.hpp"
+#include "proxy/players.hpp"
 #include "shared/free_way.hpp"
 #include "shared/judge_tree.hpp"
 #include "shared/reference_descent.hpp"
 #include "shared/rough_meshes.hpp"
 #include "shared/rough_paths.hpp"
 #include "shared/settled_shape.hpp"
-#include "shared/touch_rig.hpp"
 #include "shared/unseen_meshes.hpp"
 
 namespace tactus::bench {
@@ -27,7 +26,6 @@ namespace {
 using shared::FreeWay;
 using shared::JudgeTree;
 using shared::SlowVec3;
-using shared::TouchRig;
 
 constexpr std::array radii{0.01, 0.05, 0.2};
 constexpr double worth_a_doubt = 1e-5;     // an error of that much may be the judge's (unit: meters)
@@ -44,6 +42,7 @@ struct Verdict {
     int contact_ticks = 0, penetrations = 0, passes = 0, unjudged = 0;
     int unfinished = 0, frozen = 0;
     int checked = 0, unsettled = 0, balanced = 0, other_replays = 0;
+    int stuck = 0;                            // checked finished ticks that end farther off than 1e-3 radii
     double error_rms = 0.0, error_max = 0.0;  // of finished ticks, of the size
     double unfinished_error_max = 0.0;        // how far off unfinished ticks are, of the size
     double thrown_max = 0.0;                  // how far a tick leads away from its hand (unit: radii)
@@ -56,29 +55,23 @@ bool is_in_contact(const Played& tick) {
     return (tick.status & (proxy_touching | proxy_unfinished)) != 0;
 }
 
-// The same ticks over and over; a tick's time is the least of them.
-std::vector<Played> play(const shared::SpanClock& clock, const std::shared_ptr<const TouchShape>& shape,
-                         double radius, const std::vector<Vec3>& way, const RoughSettings& settings,
-                         Verdict& verdict) {
+// The same ticks over and over, each time by a player that is made anew; a tick's time is the least of them.
+template <class MakePlayer>
+std::vector<Played> play(const shared::SpanClock& clock, const MakePlayer& make, const std::vector<Vec3>& way,
+                         int replays, Verdict& verdict) {
     std::vector<Played> ticks(way.size());
-    for (int replay = 0; replay < settings.replays; ++replay) {
-        TouchRig rig(radius);
-        ProxySettings proxy = rig.proxy.settings();
-        proxy.max_work = settings.max_work;
-        rig.proxy.set_settings(proxy);
-        rig.add(shape);
+    for (int replay = 0; replay < replays; ++replay) {
+        auto player = make();
         for (std::size_t i = 0; i < way.size(); ++i) {
             const std::uint64_t start = clock.now();
-            const ProxyTick tick = rig.tick(way[i]);
-            const HandForce force =
-                contact_force(rig.scene, rig.proxy.touching(), tick.slide, Vec3(0.0), 1e-3);
+            const PlayedTick tick = player.tick(way[i]);
             const std::uint64_t end = clock.now();
             Played& played = ticks[i];
             if (replay == 0) {
                 played.hand = way[i];
                 played.position = tick.position;
                 played.status = tick.status;
-                verdict.contact_ticks += force.contact_count > 0;
+                verdict.contact_ticks += tick.touching;
             }
             verdict.other_replays += played.position != tick.position;
             played.microseconds = std::min(played.microseconds, 1e-3 * clock.nanoseconds(start, end));
@@ -192,6 +185,7 @@ void judge_ends(const std::vector<Played>& ticks, const JudgeTree& tree, double 
                 ++verdict.balanced;
                 continue;
             }
+            verdict.stuck += error > 1e-3 * radius;
             verdict.error_max = std::max(verdict.error_max, error);
             sum += error * error;
         }
@@ -215,6 +209,7 @@ constexpr Count counts[] = {
     {&Verdict::checked, "checked_ticks"},
     {&Verdict::unsettled, "reference_unsettled"},
     {&Verdict::balanced, "balanced_ticks"},
+    {&Verdict::stuck, "stuck_ticks"},
     {&Verdict::other_replays, "other_replays"},
 };
 struct Size {
@@ -338,6 +333,7 @@ struct Kind {
 
 void measure_kind(const Kind& kind, const shared::SpanClock& clock, const RoughSettings& settings,
                   shared::Report& report) {
+    const std::string prefix = settings.three_pass ? three_pass_prefix : "";
     Total total;
     for (const shared::RoughMesh& rough : kind.meshes) {
         // Names hold the number of triangles, which only the mesh itself knows.
@@ -372,17 +368,24 @@ void measure_kind(const Kind& kind, const shared::SpanClock& clock, const RoughS
         for (const auto& [radius, path] : chosen) {
             Verdict verdict;
             const std::vector<Vec3> way = path->make(tree, radius, settings.ticks);
-            const std::vector<Played> ticks =
-                play(clock, shapes.get(radius, report), radius, way, settings, verdict);
+            const auto ours = [&, radius = radius] {
+                return OurPlayer(shapes.get(radius, report), radius, settings.max_work);
+            };
+            const auto three_pass = [&, radius = radius] {
+                return ThreePassPlayer(tree, radius, *settings.three_pass);
+            };
+            const std::vector<Played> ticks = settings.three_pass
+                                                  ? play(clock, three_pass, way, settings.replays, verdict)
+                                                  : play(clock, ours, way, settings.replays, verdict);
             judge_times(ticks, verdict);
             judge_places(ticks, tree, radius, verdict);
             judge_ends(ticks, tree, radius, settings.checks, verdict);
-            tell(case_name(mesh_name, radius, path->name), verdict, settings.ticks, report);
+            tell(prefix + case_name(mesh_name, radius, path->name), verdict, settings.ticks, report);
             total.add(verdict, settings.ticks);
         }
     }
     if (total.cases > 0) {
-        tell_total(kind.name, total, report);
+        tell_total(prefix + kind.name, total, report);
     }
 }
 

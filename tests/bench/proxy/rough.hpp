@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "core/proxy/proxy.hpp"
+#include "proxy/three_pass.hpp"
 #include "shared/bench_kit.hpp"
 
 namespace tactus::bench {
@@ -19,10 +21,11 @@ struct RoughSettings {
     int max_triangles = 3'000'000;
     // As worlds touch large meshes: through what a sphere of that radius can touch of them (narrowed()).
     bool narrowed = true;
+    std::optional<Epsilons> three_pass;  // the thesis's proxy in place of ours
 };
 
 // Sets rough_NAME_TRIANGLES_rR_PATH.*, rough_NAME_TRIANGLES_rR.* and, over all of them, rough.*; the same
-// with unseen.
+// with unseen. The thesis's proxy sets three_pass.….
 void measure_rough(const shared::SpanClock& clock, const RoughSettings& settings, shared::Report& report);
 
 }  // namespace tactus::bench
