@@ -39,8 +39,9 @@ func _play(kind: GDScript, authority: Variant) -> Dictionary:
 			world.advance(FRAME)
 			touched = touched or (world.get_node("Proxy") as ProxyPointer).is_touching()
 	# Which of two areas Godot tells first in one frame depends on its threads. Each line has its frame.
-	game.events.sort()
-	var result := {"places": game.places(), "events": game.events, "touched": touched}
+	var events := game.events.duplicate()
+	events.sort()
+	var result := {"places": game.places(), "events": events, "touched": touched}
 	result.authority = world.get_authority_in_use() if world != null else -1
 	result.problems = world.get_problems() if world != null else PackedStringArray()
 	space.free()
