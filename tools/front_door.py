@@ -54,7 +54,7 @@ def packages(name: str, given: Given) -> list[str]:
     """What must come from the system: words of debian_packages.sh. What only other platforms need is asked for where they are."""
     if given.has("--device-access"):
         return ["python"]
-    if name == "docs" and not given.has("--figures"):
+    if _makes_pages_alone(name, given):
         return ["pages"]
     elsewhere = platforms.tested_by(given.words[0]) if name == "test" and given.words else None
     if elsewhere:
@@ -62,7 +62,7 @@ def packages(name: str, given: Given) -> list[str]:
     extra = {"proof": ["sensing", "proof"], "test": ["sensing"]}.get(name, [])
     if name == "bench" and "sensing" in given.words:
         extra = ["sensing", "rival"]
-    if name == "experiment" and given.words == ("scenario5",):
+    if given.has("--pictures") or (name == "experiment" and given.words == ("scenario5",)):
         extra = ["sensing"]
     if given.has("--with-sensing"):
         extra = ["with_sensing"]
@@ -74,7 +74,7 @@ def needed(name: str, given: Given) -> list[Step]:
         return steps.for_platforms([emulated])
     if given.has("--device-access"):
         return []
-    if name == "docs" and not (given.has("--figures") or given.has("--pictures")):
+    if _makes_pages_alone(name, given):
         return [steps.python()]
     plan = steps.dependencies()
     if given.has("--with-sensing") or (name == "bench" and "sensing" in given.words and pcl.can_fetch()):
@@ -91,6 +91,11 @@ def needed(name: str, given: Given) -> list[Step]:
     if name in ("setup", "export", "addon", "proof"):
         return [*plan, steps.export_template(), debug, release, imported]
     return [*plan, debug, imported, *([project.help_step()] if name == "edit" else [])]
+
+
+def _makes_pages_alone(name: str, given: Given) -> bool:
+    """The documents out of what is in the clone: figures and pictures are made by what was built."""
+    return name == "docs" and not (given.has("--figures") or given.has("--pictures"))
 
 
 def _others(given: Given) -> list[platforms.Platform]:

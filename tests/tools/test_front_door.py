@@ -107,6 +107,14 @@ def test_an_unknown_option_is_refused_before_anything_is_set_up(command, clone, 
     assert sorted(clone.stand_ins.rglob("*")) == before and list(tmp_path.iterdir()) == [link]
 
 
+@pytest.mark.parametrize(("words", "builds"), [((), False), (("--pictures",), True), (("--figures",), True)])
+def test_only_figures_and_pictures_of_the_documents_need_what_is_built(words, builds):
+    given = front_door.read(["docs", *words])
+    names = [step.name for step in front_door.needed(*given)]
+    assert ("build" in front_door.packages(*given)) == ("Godot" in names) == builds
+    assert (project.import_step().name in names) == (words == ("--pictures",))
+
+
 @pytest.mark.parametrize("command", COMMANDS)
 def test_a_misspelt_word_is_refused_before_anything_is_set_up(command, refuses):
     refuses(command, *WRONG[command])
