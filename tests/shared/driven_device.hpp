@@ -31,9 +31,9 @@ inline bool tick_until(DriverDevice& device, const Vec3& force,
     return false;
 }
 
-inline bool wait_until(const std::function<bool()>& done, Nanoseconds longest = longest_wait) {
+inline bool wait_until(const std::function<bool()>& done) {
     SleepTimer timer;
-    for (const Nanoseconds end = monotonic_now() + longest; monotonic_now() < end && !done();) {
+    for (const Nanoseconds end = monotonic_now() + longest_wait; monotonic_now() < end && !done();) {
         timer.sleep_until(monotonic_now() + one_tick);
     }
     return done();
