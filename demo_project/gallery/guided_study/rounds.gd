@@ -4,7 +4,8 @@ extends Label3D
 const ROUNDS := ["no guide", "attracted", "held"]
 const MODES := [HapticGuide.MODE_ATTRACT, HapticGuide.MODE_ATTRACT, HapticGuide.MODE_HOLD]
 
-var _distances := PackedFloat64Array()
+var _sum := 0.0
+var _count := 0
 var _lines := PackedStringArray()
 
 @onready var _device: HapticDevice = %HapticDevice
@@ -19,22 +20,21 @@ func _ready() -> void:
 
 func _process(_delta: float) -> void:
 	var hand := _line.to_local(_device.get_hand_position())
-	_distances.append(hand.distance_to(_guide.guide.get_place(hand)))
+	_sum += hand.distance_to(_guide.guide.get_place(hand))
+	_count += 1
 
 
 func _prepare() -> void:
 	var i := _lines.size() % ROUNDS.size()
 	_guide.enabled = i > 0
 	_guide.guide.mode = MODES[i]
-	_distances.clear()
+	_sum = 0.0
+	_count = 0
 
 
 func _next_round() -> void:
-	var sum := 0.0
-	for distance in _distances:
-		sum += distance
 	var i := _lines.size() % ROUNDS.size()
-	_lines.append("%s: %.1f mm" % [ROUNDS[i], 1e3 * sum / maxi(_distances.size(), 1)])
+	_lines.append("%s: %.1f mm" % [ROUNDS[i], 1e3 * _sum / maxi(_count, 1)])
 	text = "\n".join(_lines.slice(-ROUNDS.size()))
 	_prepare()
 	_device.restart_path()

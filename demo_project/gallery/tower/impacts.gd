@@ -9,6 +9,8 @@ const LOWEST := 3
 var _hardest := 0.0
 var _knock := "not touched yet"
 
+@onready var _blocks := %ProxyPointer.get_parent().find_children("Block*", "RigidBody3D", false)
+
 
 func _ready() -> void:
 	(%ProxyPointer as ProxyPointer).impact.connect(_on_impact)
@@ -21,8 +23,7 @@ func _on_impact(_body: Node3D, speed: float, impulse: float) -> void:
 
 
 func _process(_delta: float) -> void:
-	var blocks := %ProxyPointer.get_parent().find_children("Block*", "RigidBody3D", false)
-	text = "%s\n%d fallen" % [_knock, blocks.filter(_lies).size() - LOWEST]
+	text = "%s\n%d fallen" % [_knock, _blocks.filter(_lies).size() - LOWEST]
 
 
 func _lies(block: RigidBody3D) -> bool:
