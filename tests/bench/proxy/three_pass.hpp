@@ -18,6 +18,8 @@ struct Epsilons {
     double ahead = 1e-5;  // how far beyond its goal a pass looks (unit: meters)
 };
 
+// It has a tree of its own. Over JudgeTree's, with four triangles a leaf and boxes that are inflated at each
+// query, its ticks take 1.1 to 1.5 times as long, and a rival is measured at its best.
 class ThreePassProxy {
 public:
     // The mesh must live as long as this.
