@@ -375,7 +375,7 @@ static func _is_same(now: Variant, asked: Variant) -> bool:
 
 
 func _is_networked(link: MMTLink) -> bool:
-	return link != null and link.scenario != MMTLink.SCENARIO_SINGLE
+	return link != null and link.scenario != MMTLink.SCENARIO_LOCAL
 
 
 func _is_operator(link: MMTLink) -> bool:

@@ -54,7 +54,7 @@ var chosen := {
 	"delay": 0.0,
 	"jitter": 0.0,
 	"loss": 0.0,
-	"correction": "CORRECTION_STEALTHY_DIRECTION",
+	"correction": "CORRECTION_MASKED_DIRECTION",
 	"derivation": "DERIVATION_RESIMULATE",
 	"control": "CONTROL_SPRING",
 	"camera": "SOURCE_SYNTHETIC",
@@ -132,7 +132,7 @@ func problem() -> String:
 		if value_of(choice[1], chosen[choice[0]]) < 0:
 			return (
 				"there is no %s '%s': it is one of %s"
-				% [choice[0], chosen[choice[0]], ", ".join(names_of(choice[1]))]
+				% [choice[0], chosen[choice[0]], ", ".join(present_names_of(choice[1]))]
 			)
 	return ""
 
@@ -141,8 +141,17 @@ func has_network() -> bool:
 	return chosen.scenario in [2, 4]
 
 
+## Of the enumeration that begins with a class and a name; former names of its values come last.
 static func names_of(enumeration: Array) -> PackedStringArray:
 	return ClassDB.class_get_enum_constants(enumeration[0], enumeration[1])
+
+
+## One name for each value.
+static func present_names_of(enumeration: Array) -> PackedStringArray:
+	var names := {}
+	for name in names_of(enumeration):
+		names.get_or_add(value_of(enumeration, name), name)
+	return PackedStringArray(names.values())
 
 
 static func value_of(enumeration: Array, name: String) -> int:

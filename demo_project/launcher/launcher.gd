@@ -54,7 +54,7 @@ var _rows := {}
 
 
 func _ready() -> void:
-	_launch.chosen.output = "user://bundles/" + Time.get_datetime_string_from_system(true).replace(":", "")
+	_launch.chosen.output = ("user://bundles/" + Time.get_datetime_string_from_system(true).replace(":", ""))
 	for row: Array in ROWS:
 		_add_row(row[0], row[1], row[2])
 	for words: String in [SCENARIO] + STUDIES.keys():
@@ -79,7 +79,7 @@ func _add_row(words: String, choice: String, values: Variant) -> void:
 	if values is Dictionary:
 		control = _choice_among(values.keys(), values.values(), choice)
 	elif values is Array and values[0] is String:
-		var names := Launch.names_of(values)
+		var names := Launch.present_names_of(values)
 		control = _choice_among(Array(names).map(_readable.bind(names[0])), Array(names), choice)
 	elif values is Array:
 		control = _number(values, choice)
@@ -222,4 +222,4 @@ func _play_again() -> void:
 	await get_tree().process_frame
 	await get_tree().process_frame
 	var same := Replay.run(["--replay=" + bundle]) == Replay.SAME
-	_said.text = "The results are bit-exact" if same else "It was not the same: the output says where"
+	_said.text = ("The results are bit-exact" if same else "It was not the same: the output says where")

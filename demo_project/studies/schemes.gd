@@ -16,7 +16,7 @@ const SIGNIFICANCE := 0.05
 const STATED_PREFERENCE := 0.75
 
 ## The two ways, as names of MMTLink.CorrectionScheme.
-@export var schemes := PackedStringArray(["CORRECTION_STEALTHY_TURN", "CORRECTION_STEALTHY_DIRECTION"])
+@export var schemes := PackedStringArray(["CORRECTION_MASKED_TURN", "CORRECTION_MASKED_DIRECTION"])
 @export_range(2, 200) var trials := 30
 ## There and back.
 @export_range(0.0, 1.0, 0.001, "suffix:s") var delay := 0.1
@@ -79,12 +79,16 @@ func _join(here: Node3D, there: Node3D) -> void:
 
 func settings_problem() -> String:
 	var known := ClassDB.class_get_enum_constants("MMTLink", "CorrectionScheme")
-	if schemes.size() != 2 or schemes[0] == schemes[1]:
-		return "schemes must be two different ones"
 	for scheme in schemes:
 		if not scheme in known:
 			return "there is no scheme '%s': it is one of %s" % [scheme, ", ".join(known)]
+	if schemes.size() != 2 or _value_of(schemes[0]) == _value_of(schemes[1]):
+		return "schemes must be two different ones"
 	return ""
+
+
+func _value_of(scheme: String) -> MMTLink.CorrectionScheme:
+	return ClassDB.class_get_integer_constant("MMTLink", scheme) as MMTLink.CorrectionScheme
 
 
 func set_up() -> void:
@@ -98,9 +102,7 @@ func set_up() -> void:
 func feel(which: int) -> void:
 	felt = which
 	var scheme := schemes[first if which == 0 else 1 - first]
-	_links[0].correction_scheme = (
-		ClassDB.class_get_integer_constant("MMTLink", scheme) as MMTLink.CorrectionScheme
-	)
+	_links[0].correction_scheme = _value_of(scheme)
 	# A world that comes into the tree starts anew: gone is all that touch has taught the model.
 	# Both leave before one comes back, so that neither meets what the other was.
 	var testbeds := {}

@@ -191,7 +191,7 @@ LinkPlan MMTLink::plan() {
     plan.problem = from_godot(problem());
     plan.revision = revision_;
     plan.teleop = tuning_.is_valid() ? tuning_->settings() : TeleopSettings{};
-    plan.teleop.traditional = scenario_ == SCENARIO_TRADITIONAL || scenario_ == SCENARIO_ROBOT;
+    plan.teleop.traditional = scenario_ == SCENARIO_DIRECT || scenario_ == SCENARIO_DIRECT_ROBOT;
     plan.teleop.robot = has_robots();
     plan.teleop.correction = correction_;
     plan.history = history_;

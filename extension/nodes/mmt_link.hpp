@@ -35,9 +35,9 @@ class MMTLink : public godot::Node {
 
 public:
     enum Scenario : int64_t {
-        SCENARIO_SINGLE = 1,
-        SCENARIO_TRADITIONAL = 2,
-        SCENARIO_ROBOT = 3,
+        SCENARIO_LOCAL = 1,
+        SCENARIO_DIRECT = 2,
+        SCENARIO_DIRECT_ROBOT = 3,
         SCENARIO_MMT = 4,
         SCENARIO_MMT_ROBOT = 5
     };
@@ -75,9 +75,9 @@ public:
     // The links that make this world a side of a teleoperation: an operator's one, or those of an environment
     // to each of its operators. Empty: it stands alone.
     static std::vector<MMTLink*> of(const HapticWorld& world);
-    bool is_networked() const { return scenario_ != SCENARIO_SINGLE; }
+    bool is_networked() const { return scenario_ != SCENARIO_LOCAL; }
     // The devices of its far side are robots.
-    bool has_robots() const { return scenario_ == SCENARIO_ROBOT || scenario_ == SCENARIO_MMT_ROBOT; }
+    bool has_robots() const { return scenario_ == SCENARIO_DIRECT_ROBOT || scenario_ == SCENARIO_MMT_ROBOT; }
     bool is_operator() const { return side_ == SIDE_OPERATOR; }
     LinkPlan plan();
     void set_model_errors(const godot::Dictionary& errors);
@@ -117,7 +117,7 @@ private:
     bool take_old(const char* place, const godot::Ref<Values>& own, const godot::String& name,
                   const godot::Variant& value);
 
-    Scenario scenario_ = SCENARIO_SINGLE;
+    Scenario scenario_ = SCENARIO_LOCAL;
     Side side_ = SIDE_OPERATOR;
     godot::NodePath partner_;
     godot::String local_address_;

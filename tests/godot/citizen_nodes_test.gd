@@ -19,9 +19,12 @@ func test_every_enum_of_the_inspector_has_its_entries() -> void:
 				continue
 			seen += 1
 			var enumeration: String = String(property.class_name).get_slice(".", 1)
-			var values: Array[int] = []
-			for constant in ClassDB.class_get_enum_constants(type, enumeration, true):
-				values.append(ClassDB.class_get_integer_constant(type, constant))
+			var constants := ClassDB.class_get_enum_constants(type, enumeration, true)
+			var names := {}
+			for constant in constants:
+				names.get_or_add(ClassDB.class_get_integer_constant(type, constant), constant)
+			var values: Array = names.keys()
+			var shared := _shared_words(names.values())
 			var entries: PackedStringArray = property.hint_string.split(",")
 			check_equal(entries.size(), values.size(), "entries of %s.%s" % [type, property.name])
 			for i in mini(entries.size(), values.size()):
@@ -29,7 +32,26 @@ func test_every_enum_of_the_inspector_has_its_entries() -> void:
 				check_equal(parts.size(), 2, "parts of '%s' in %s.%s" % [entries[i], type, property.name])
 				check(parts[0].strip_edges() != "", "no name in '%s' in %s" % [entries[i], type])
 				check(parts[1].is_valid_int() and int(parts[1]) == values[i], "value of '%s'" % entries[i])
+				var words: String = names[values[i]].trim_prefix(shared).replace("_", "")
+				check_equal(
+					_as_constant(parts[0], values[i]), words, "entry of %s.%s" % [type, property.name]
+				)
 	check(seen >= 8, "only %d enums" % seen)
+
+
+## What all of them begin with, up to an underscore.
+func _shared_words(names: Array) -> String:
+	var shared: String = names[0]
+	for name: String in names:
+		while not name.begins_with(shared):
+			shared = shared.left(-1)
+	return shared.left(shared.rfind("_") + 1)
+
+
+## An entry of the inspector as the end of a constant's name.
+## It may begin with its own value, and connect words by "and".
+func _as_constant(entry: String, value: int) -> String:
+	return entry.trim_prefix("%d " % value).replace(" and ", " ").to_upper().replace(" ", "").replace("-", "")
 
 
 func _felt_body(at: Vector3) -> StaticBody3D:

@@ -136,7 +136,7 @@ func test_a_needle_that_is_held_does_not_creep() -> void:
 		[Vector3(0, 0.1, 0.02), Vector3(0, 0.03, 0.02), Vector3(0, 0.04, 0.02)]
 	)
 	way.points_times = PackedFloat64Array([0.0, 3.0, 4.0])
-	device.driver = HapticDevice.DRIVER_ARM
+	device.driver = HapticDevice.DRIVER_SIMULATED_ARM
 	device.path = way
 	await _play(scene, 6.0)
 	var held := _proxy(scene).get_hand_position()

@@ -24,7 +24,7 @@ func test_a_guide_pulls_the_hand_to_where_it_leads() -> void:
 			_guide(HapticGuide.FORM_PLANE, [Vector3(0, 0.1, 0), Vector3(1, 0.1, 0), Vector3(0, 0.1, 1)]),
 			Vector3(0, 1, 0)
 		],
-		[_guide(HapticGuide.FORM_WAY, [Vector3(-0.2, 0.1, 0), Vector3(0.2, 0.1, 0)]), Vector3(0, 1, 0)],
+		[_guide(HapticGuide.FORM_PATH, [Vector3(-0.2, 0.1, 0), Vector3(0.2, 0.1, 0)]), Vector3(0, 1, 0)],
 		[_guide(HapticGuide.FORM_POINT, [Vector3(0, 0.2, 0)]), Vector3.ZERO]
 	]:
 		var guide: HapticGuide = case[0]
@@ -88,7 +88,7 @@ func test_what_leads_nowhere_is_said() -> void:
 		[_guide(HapticGuide.FORM_LINE, [Vector3.ZERO]), "too few points"],
 		[_guide(HapticGuide.FORM_LINE, [Vector3.ONE, Vector3.ONE]), "one place"],
 		[_guide(HapticGuide.FORM_PLANE, [Vector3.ZERO, Vector3.ONE, 2.0 * Vector3.ONE]), "on a line"],
-		[_guide(HapticGuide.FORM_WAY, [Vector3.ZERO, Vector3(NAN, 0, 0)]), "point 1"]
+		[_guide(HapticGuide.FORM_PATH, [Vector3.ZERO, Vector3(NAN, 0, 0)]), "point 1"]
 	]:
 		var guide: HapticGuide = case[0]
 		check(
@@ -130,7 +130,7 @@ func test_the_scene_with_a_guide_plays() -> void:
 
 
 func test_a_guide_along_a_curve_leads_along_it() -> void:
-	var guide := _guide(HapticGuide.FORM_WAY, [])
+	var guide := _guide(HapticGuide.FORM_PATH, [])
 	guide.curve = Curve3D.new()
 	check("\n".join(guide.get_problems()).contains("too few points"), str(guide.get_problems()))
 	guide.curve.add_point(Vector3(-0.1, 0.1, 0), Vector3.ZERO, Vector3(0.05, 0.05, 0))

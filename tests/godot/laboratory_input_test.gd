@@ -149,9 +149,7 @@ func test_the_launcher_refuses_by_type_unit_and_range() -> void:
 		for value: String in NONSENSE:
 			var said := Launch.new().take(PackedStringArray(["--%s=%s" % [option, value]]))
 			check("--%s=%s is refused: it must be a" % [option, value] in said, said)
-	for word: String in [
-		"--driver=DRIVER_X", "--correction=CORRECTION_STEALTHY", "--side=far", "--colour=red"
-	]:
+	for word: String in ["--driver=DRIVER_X", "--correction=CORRECTION_MASKED", "--side=far", "--colour=red"]:
 		check(Launch.new().take(PackedStringArray([word])) != "", word)
 
 

@@ -120,6 +120,4 @@ func test_an_operator_that_is_moved_touches_as_before() -> void:
 
 
 func test_a_far_world_that_jumps_is_touched_directly_as_before() -> void:
-	await _move_while_touching(
-		MMTLink.SCENARIO_TRADITIONAL, true, Transform3D(Basis(), Vector3(1, 0.5, 2)), 1
-	)
+	await _move_while_touching(MMTLink.SCENARIO_DIRECT, true, Transform3D(Basis(), Vector3(1, 0.5, 2)), 1)

@@ -11,7 +11,7 @@ func test_the_two_sides_find_each_other() -> void:
 
 ## The robot's table lies 10 mm below the middle.
 func test_a_robot_goes_where_the_hand_is_and_the_table_it_meets_is_felt() -> void:
-	await _connect(MMTLink.SCENARIO_ROBOT)
+	await _connect(MMTLink.SCENARIO_DIRECT_ROBOT)
 	add_hand(_operator, path(Vector3.ZERO, Vector3(0.01, -0.02, 0), 0.5))
 	var robot := HapticDevice.new()
 	robot.name = "Device"
@@ -65,7 +65,7 @@ func test_a_body_of_the_scene_shows_the_far_one_of_the_same_name() -> void:
 
 
 func test_traditional_touch_is_felt_one_delay_later() -> void:
-	await _connect(MMTLink.SCENARIO_TRADITIONAL, 0.1)
+	await _connect(MMTLink.SCENARIO_DIRECT, 0.1)
 	add_floor(_far, STIFFNESS)
 	_add_hands()
 	_advance(0.5 + 0.1)
@@ -81,16 +81,16 @@ func test_traditional_touch_is_felt_one_delay_later() -> void:
 
 
 func test_the_same_scene_goes_from_one_scenario_to_the_next_while_it_runs() -> void:
-	await _connect(MMTLink.SCENARIO_TRADITIONAL, 0.1)
+	await _connect(MMTLink.SCENARIO_DIRECT, 0.1)
 	for world: HapticWorld in [_far, _operator]:
 		add_floor(world, STIFFNESS)
 	_add_hands()
 	for scenario: MMTLink.Scenario in [
-		MMTLink.SCENARIO_TRADITIONAL,
+		MMTLink.SCENARIO_DIRECT,
 		MMTLink.SCENARIO_MMT,
-		MMTLink.SCENARIO_SINGLE,
+		MMTLink.SCENARIO_LOCAL,
 		MMTLink.SCENARIO_MMT,
-		MMTLink.SCENARIO_TRADITIONAL
+		MMTLink.SCENARIO_DIRECT
 	]:
 		for link: MMTLink in [_here, _there]:
 			link.scenario = scenario
@@ -99,7 +99,7 @@ func test_the_same_scene_goes_from_one_scenario_to_the_next_while_it_runs() -> v
 		check_near(_felt(_operator), Vector3.ZERO, 1e-9, "force above the floor, scenario %d" % scenario)
 		_advance(0.4)
 		check_near(_felt(_operator).y, 8.0, 1e-3, "force of scenario %d" % scenario)
-		var wanted := MMTLink.STATE_OFF if scenario == MMTLink.SCENARIO_SINGLE else MMTLink.STATE_CONNECTED
+		var wanted := MMTLink.STATE_OFF if scenario == MMTLink.SCENARIO_LOCAL else MMTLink.STATE_CONNECTED
 		check_equal(_here.get_state(), wanted, "state: " + _here.get_state_text())
 
 
@@ -273,7 +273,7 @@ func test_partners_of_the_same_side_stay_apart() -> void:
 
 
 func test_a_far_side_that_vanishes_leaves_no_force_and_moves_nothing() -> void:
-	for scenario: MMTLink.Scenario in [MMTLink.SCENARIO_TRADITIONAL, MMTLink.SCENARIO_MMT]:
+	for scenario: MMTLink.Scenario in [MMTLink.SCENARIO_DIRECT, MMTLink.SCENARIO_MMT]:
 		await _connect(scenario, 0.02)
 		add_floor(_far, STIFFNESS)
 		_add_hands(0.3)
@@ -285,7 +285,7 @@ func test_a_far_side_that_vanishes_leaves_no_force_and_moves_nothing() -> void:
 			_operator.advance(TICK)
 		check_equal(_here.get_state(), MMTLink.STATE_LOST, "state: " + _here.get_state_text())
 		check_equal(lost[0], 1, "peer_lost")
-		var wanted := 0.0 if scenario == MMTLink.SCENARIO_TRADITIONAL else 8.0
+		var wanted := 0.0 if scenario == MMTLink.SCENARIO_DIRECT else 8.0
 		check_near(_felt(_operator).y, wanted, 1e-3, "force when nobody answers")
 		_operator.free()
 		_far.free()
@@ -329,7 +329,7 @@ func test_what_an_experiment_makes_wrong_about_the_model_is_corrected() -> void:
 	await frames(1)
 	_advance(1.0)
 	check_near(_felt(_operator).y, 5.0, 1e-3, "force of the wrong model")
-	_here.correction_scheme = MMTLink.CORRECTION_STEALTHY_DIRECTION
+	_here.correction_scheme = MMTLink.CORRECTION_MASKED_DIRECTION
 	_advance(5.0)
 	check_near(_felt(_operator).y, 8.0, 0.02, "force of the corrected model")
 	check(

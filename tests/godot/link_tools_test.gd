@@ -35,7 +35,7 @@ func test_a_tool_touches_the_model_at_once_and_the_far_one_follows() -> void:
 
 
 func test_traditional_touch_brings_back_the_force_and_torque_of_a_tool() -> void:
-	await _connect(MMTLink.SCENARIO_TRADITIONAL, 0.1)
+	await _connect(MMTLink.SCENARIO_DIRECT, 0.1)
 	add_floor(_far, STIFFNESS)
 	_add_tools()
 	_tool(_operator).grasp_rotation = Vector3(0, 0, 0.05)
@@ -110,7 +110,7 @@ func test_a_robot_carries_a_tool_and_both_keep_the_rotation_of_its_mount() -> vo
 
 
 func test_what_a_robots_tool_runs_into_is_felt_without_a_model() -> void:
-	await _connect(MMTLink.SCENARIO_ROBOT, 0.05)
+	await _connect(MMTLink.SCENARIO_DIRECT_ROBOT, 0.05)
 	var place := _add_robot(Vector3.ZERO)
 	add_floor(place, STIFFNESS)
 	var hand := HapticDevice.new()

@@ -249,8 +249,8 @@ func test_what_cannot_be_kept_stops_the_study_and_says_why() -> void:
 	expect_error("is no participant's code")
 	study = _open("stiffness", {"participant": "../other"})
 	check(study.is_over, "it goes on with a path for a participant")
-	expect_error("there is no scheme 'CORRECTION_STEALTHY'")
-	study = _open("schemes", {"schemes": PackedStringArray(["CORRECTION_STEALTHY", "CORRECTION_POSE"])})
+	expect_error("there is no scheme 'CORRECTION_MASKED'")
+	study = _open("schemes", {"schemes": PackedStringArray(["CORRECTION_MASKED", "CORRECTION_POSE"])})
 	check(study.is_over, "it goes on with a scheme that there is not")
 
 
@@ -278,16 +278,16 @@ func test_schemes_are_compared_blind_and_as_often_the_one_first_as_the_other() -
 			for label: Label in study.find_children("*", "Label", true, false):
 				for word: String in ["carried", "stealthy", "correction"]:
 					check(not word in label.text.to_lower(), "'%s' gives it away" % label.text)
-		study.answer(0 if study.schemes[study.first] == "CORRECTION_STEALTHY_DIRECTION" else 1)
+		study.answer(0 if study.schemes[study.first] == "CORRECTION_MASKED_DIRECTION" else 1)
 	var rows := _rows(study.file.csv_path())
 	check_equal(rows.size(), 10, "rows")
-	var first := rows.filter(func(row: Dictionary) -> bool: return row.first == "CORRECTION_STEALTHY_TURN")
+	var first := rows.filter(func(row: Dictionary) -> bool: return row.first == "CORRECTION_MASKED_TURN")
 	check_equal(first.size(), 5, "trials with the one as the first")
 	for row in rows:
-		check_equal(row.chosen, "CORRECTION_STEALTHY_DIRECTION", "chosen")
+		check_equal(row.chosen, "CORRECTION_MASKED_DIRECTION", "chosen")
 		check_equal(row.changes, "2", "changes")
 	var results: Dictionary = _about(study).results
-	check_equal(results.prefers, "CORRECTION_STEALTHY_DIRECTION", "who is preferred")
+	check_equal(results.prefers, "CORRECTION_MASKED_DIRECTION", "who is preferred")
 	check_near(results.p_value, 2.0 / 1024.0, 1e-9, "p")
 
 

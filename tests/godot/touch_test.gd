@@ -204,7 +204,7 @@ func test_a_simulated_arm_is_pushed_back_and_changes_where_it_is() -> void:
 	add_floor(world, 500.0)
 	var proxy := add_hand(world, path(Vector3(0, 0.03, 0), Vector3(0, -0.03, 0), 0.5))
 	var device: HapticDevice = world.get_node("Device")
-	device.driver = HapticDevice.DRIVER_ARM
+	device.driver = HapticDevice.DRIVER_SIMULATED_ARM
 	device.force_limit = 20.0
 	world.advance(3.0)
 	# At rest the muscles' spring and the floor's share the way: 150 (y + 0.03) = 500 (0.01 - y).

@@ -48,7 +48,7 @@ func test_each_preset_changes_basic_properties_and_has_its_sentence() -> void:
 func test_each_preset_displays_the_force_of_a_floor_under_delay() -> void:
 	for file: String in _presets():
 		var is_direct := file == "passive_direct.tres"
-		await _connect(MMTLink.SCENARIO_TRADITIONAL if is_direct else MMTLink.SCENARIO_MMT, 0.04)
+		await _connect(MMTLink.SCENARIO_DIRECT if is_direct else MMTLink.SCENARIO_MMT, 0.04)
 		for link: MMTLink in [_here, _there]:
 			link.tuning = _presets()[file]
 		add_floor(_far, 200.0)

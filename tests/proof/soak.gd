@@ -172,7 +172,7 @@ func _link() -> void:
 		var link := MMTLink.new()
 		link.name = "Link"
 		link.side = MMTLink.SIDE_OPERATOR if which == 0 else MMTLink.SIDE_TELEOPERATOR
-		link.scenario = MMTLink.SCENARIO_MMT if _chance.randi() % 3 > 0 else MMTLink.SCENARIO_TRADITIONAL
+		link.scenario = MMTLink.SCENARIO_MMT if _chance.randi() % 3 > 0 else MMTLink.SCENARIO_DIRECT
 		link.conditions = MMTNetworkConditions.new()
 		link.conditions.delay = _chance.randf_range(0.0, 0.05)
 		link.conditions.loss = 0.02

@@ -20,7 +20,7 @@ from setup.progress import Pace, bar
 
 TRADITIONAL, MODEL_MEDIATED = 2, 4
 OPERATOR, FAR = 0, 1
-SIMULATED_ARM = 2  # HapticDevice.DRIVER_ARM
+SIMULATED_ARM = 2  # HapticDevice.DRIVER_SIMULATED_ARM
 # One processor for each haptic thread, where there are two.
 PROCESSORS = {OPERATOR: 1, FAR: 0}
 # Another measurement on this machine has other ports.

@@ -3,18 +3,18 @@ extends Control
 ## network. Keys 1, 2 and 4 choose the scenario.
 
 const SCENARIOS := {
-	"1  Direct, no network": MMTLink.SCENARIO_SINGLE,
-	"2  Direct": MMTLink.SCENARIO_TRADITIONAL,
+	"1  Direct, no network": MMTLink.SCENARIO_LOCAL,
+	"2  Direct": MMTLink.SCENARIO_DIRECT,
 	"4  Model-mediated": MMTLink.SCENARIO_MMT,
 }
 const CORRECTIONS := {
 	"Never corrected": MMTLink.CORRECTION_NONE,
 	"Pose (thesis)": MMTLink.CORRECTION_POSE,
 	"Pose, velocities": MMTLink.CORRECTION_POSE_VELOCITY,
-	"Stealthy: magnitude": MMTLink.CORRECTION_STEALTHY_MAGNITUDE,
-	"Stealthy: direction": MMTLink.CORRECTION_STEALTHY_DIRECTION,
-	"Carried: translate": MMTLink.CORRECTION_STEALTHY_TRANSLATE,
-	"Carried: turn": MMTLink.CORRECTION_STEALTHY_TURN,
+	"Masked: magnitude": MMTLink.CORRECTION_MASKED_MAGNITUDE,
+	"Masked: direction": MMTLink.CORRECTION_MASKED_DIRECTION,
+	"Carried: translate": MMTLink.CORRECTION_MASKED_TRANSLATE,
+	"Carried: turn": MMTLink.CORRECTION_MASKED_TURN,
 }
 const DERIVATIONS := {
 	"What was true": MMTTuning.DERIVATION_NONE,
@@ -100,7 +100,7 @@ func _process(_delta: float) -> void:
 	var far: ProxyPointer = _there.get_node("../ProxyPointer")
 	%Forces.add(Time.get_ticks_usec() * 1e-6, hand.get_force().length(), far.get_force().length())
 	var figures := _here.get_statistics()
-	if _here.scenario == MMTLink.SCENARIO_SINGLE:
+	if _here.scenario == MMTLink.SCENARIO_LOCAL:
 		%Report.text = _here.get_state_text()
 		return
 	var lines := PackedStringArray([_here.get_state_text()])

@@ -127,7 +127,7 @@ func _add_hand(
 	world: HapticWorld, is_arm: bool, places: PackedVector3Array, times: PackedFloat64Array
 ) -> void:
 	var device := HapticDevice.new()
-	device.driver = HapticDevice.DRIVER_ARM if is_arm else HapticDevice.DRIVER_PATH
+	device.driver = HapticDevice.DRIVER_SIMULATED_ARM if is_arm else HapticDevice.DRIVER_PATH
 	device.path = HapticPath.new()
 	device.path.form = HapticPath.FORM_POINTS
 	device.path.points_positions = places
