@@ -20,6 +20,8 @@ struct PlainSettings final : JPH::ConstraintSettings {};
 
 // A body is light to a spring when k dt^2 exceeds this share of its mass.
 constexpr float light = 0.05f;
+// Up to this one a free body is stable under the force of the step's begin (see the header).
+constexpr float explicit_limit = 2.0f;
 
 // The share s of a free body (see the header): enough to come to rest in the end, too little to tell.
 constexpr float least_share = 0.01f;
@@ -76,8 +78,9 @@ void SpringPush::SetupVelocityConstraint(float seconds) {
     impulse_along_ = impulse_.Dot(push_.direction);
     push_.elapsed += seconds;
 
-    const float resistance = push_.damping + push_.stiffness * seconds;
-    is_light_ = inverse_mass_along_ * seconds * resistance > light;
+    const float response = inverse_mass_along_ * seconds * (push_.damping + push_.stiffness * seconds);
+    is_light_ = response > light;
+    is_stable_ = response <= explicit_limit;
     held_ = is_light_ ? held_iterations : 0;
     SetNumVelocityStepsOverride(is_light_ ? light_iterations : 0);
     gives_ = false;
@@ -106,8 +109,8 @@ bool SpringPush::SolveVelocityConstraint(float seconds) {
 }
 
 // In terms of the impulse l, with the hand's velocity w, the force of a sub-step is
-//     l / dt = F0 + k (h - u) + s k dt (w - v) - c (v - v0)
-//     <=>   v + l / (dt (c + s k dt)) = (F0 + k (h - u) + s k dt w + c v0) / (c + s k dt).
+//     l / dt = F0 + k (h - u) + s k dt (w - v) - s c (v - v0)
+//     <=>   v + l / (dt s (c + k dt)) = (F0 + k (h - u) + s k dt w + s c v0) / (s (c + k dt)).
 // A sliding fingertip solves it along n: numbers in place of vectors, n.v + (r x n).w in place of v.
 //
 // By now contacts, joints and other fingers have given what they gave in the last step, or what they found
@@ -118,12 +121,13 @@ void SpringPush::give_way(float seconds) {
     const float given = push_.given + given_along();
     const float gained = (velocity - push_.first_velocity).Dot(push_.direction);
     const float free = inverse_mass_along_ * given;  // what a free body would have gained
-    const bool keeps = !is_light_ && gained > 0.0f && free > 0.0f;
+    const bool keeps = is_stable_ && gained > 0.0f && free > 0.0f;
     const float share = keeps ? std::clamp(1.0f - gained / free, least_share, 1.0f) : 1.0f;
     const float give = share * push_.stiffness * seconds;
-    const float resistance = push_.damping + give;
+    const float damping = share * push_.damping;
+    const float resistance = damping + give;
     softness_ = 1.0f / (seconds * resistance);
-    bias_ = (force_ + give * push_.hand_velocity + push_.damping * push_.first_velocity) / resistance;
+    bias_ = (force_ + give * push_.hand_velocity + damping * push_.first_velocity) / resistance;
     bias_along_ = bias_.Dot(push_.direction);
     effective_mass_along_ = 1.0f / (inverse_mass_along_ + softness_);
     if (push_.sticks)

@@ -14,13 +14,13 @@
 // oscillation's energy. Where something else holds the body, by friction, weight or another finger, that is
 // what lets it come to rest, since Coulomb's friction takes nothing from an oscillation that never stops the
 // body. Where nothing does, it would be energy lost: 5 % of what 1000 N/m put into a throw of 1 kg. So of the
-// way within the step only the share s counts that is borne by others,
+// way and the velocity within the step only the share s counts that is borne by others,
 //
 //     s = 1 - m (v - v0) . n / (l . n)        (l: the impulse given so far, m: the mass felt at the point)
 //
-// 0 for a free body, which sees the force of the step's begin and the velocity of its end and so keeps its
-// energy (semi-implicit Euler, stable while k dt^2 < 4 m), and 1 for one that is held. Light bodies need s =
-// 1 to be stable.
+// 0 for a free body, and 1 for one that is held. A free body sees F0 alone, so it gets the impulse that the
+// hand feels, and keeps its energy. That is semi-implicit Euler, stable while k dt^2 + 2 c dt < 4 m. Lighter
+// bodies, m < dt (k dt + c) / 2, have s = 1.
 //
 // A sliding fingertip: the same along the direction n of F0 alone. In both cases F . n >= 0.
 //
@@ -124,6 +124,7 @@ private:
     int held_ = 0;        // iterations to come in which the impulse stays what it is
     bool gives_ = false;  // softness, bias and effective mass are known
     bool is_light_ = false;
+    bool is_stable_ = true;  // under the force of the step's begin alone
 };
 
 }  // namespace tactus

@@ -285,6 +285,35 @@ TEST(Coupling, ABoxIsDrawnAlongByAFingertipOnTop) {
     EXPECT_NEAR(after.position.y, before.position.y, 1e-6);
 }
 
+// What a free body gets over what the hand feels, in a push at 0.1 m/s that begins at this phase of a tick.
+double impulse_share(double mass, double stiffness, double damping, double phase) {
+    Table table;
+    table.session->set_gravity(Vec3(0.0));
+    BodyAddition addition = thing(SphereShape{0.01}, {0.0, 1.0, 0.0}, mass);
+    addition.touch_material = {stiffness, damping, 0.0, 0.0};
+    const SessionHandle ball = table.add(addition);
+    Finger& finger = *table.finger[0];
+    const Vec3 step{1e-4, 0.0, 0.0};
+    finger.device.position = Vec3(-0.02, 1.0, 0.0) - phase * step;
+    table.tick();
+    double felt = 0.0;
+    for (int i = 0; i < 200; ++i) {
+        finger.go(step);
+        table.tick();
+        felt -= finger.device.force.x * seconds_a_tick;
+    }
+    const SessionSnapshot& snapshot = table.session->snapshot();
+    return mass * state_of(snapshot.bodies, snapshot.body_count, ball)->linear_velocity.x / felt;
+}
+
+TEST(Coupling, AFreeBodyOfAGramGetsTheImpulseThatTheHandFeels) {
+    for (const double phase : {0.0, 0.3, 0.6, 0.9}) {
+        EXPECT_NEAR(impulse_share(0.001, 1000.0, 0.0, phase), 1.0, 0.01) << phase;
+        EXPECT_NEAR(impulse_share(0.001, 1500.0, 0.0, phase), 1.0, 0.02) << phase;
+        EXPECT_NEAR(impulse_share(0.01, 500.0, 3.0, phase), 1.0, 0.01) << phase;
+    }
+}
+
 TEST(Coupling, TwoFingersLiftABox) {
     Table table(2);
     BodyAddition addition = cube(0.04, {0.0, 0.02, 0.0}, 0.05);

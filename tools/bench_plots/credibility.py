@@ -44,12 +44,21 @@ FIGURES = {
     "roll.way_ratio": ("ball rolled under a finger of 2, 10, 20 mm: its way over half the finger's, worst", "%"),
     "wheel.energy_over_stored": ("energy that a braked wheel gives a hand, over what it had", ""),
     "closed_path_energy_created_max_J": ("most work that one of 40 closed paths round a block gave", "J"),
+    "closed_path_energy_between_ticks_max_J": ("… with the mean force of two ticks", "J"),
     "light.impulse_1g": ("impulse that a free body of 1 g got, against what the hand gave", "%"),
     "light.impulse_10g": ("of 10 g", "%"),
     "light.impulse_1kg": ("of 1 kg", "%"),
     "light.impulse_damped_1g": ("surface damping of 3 N s/m: of 1 g", "%"),
     "light.impulse_damped_10g": ("of 10 g", "%"),
     "light.impulse_damped_1kg": ("of 1 kg", "%"),
+    **{
+        f"soft_press.{of}_{cells}_cells": (title if cells == 2 else f"{cells} cells", "N/m")
+        for of, title in (
+            ("stiffness", "soft block of 80 mm and 10 kPa pressed at one place of its surface, 2 cells"),
+            ("fingertip", "the same pressed by a fingertip of 10 mm radius, 2 cells"),
+        )
+        for cells in (2, 4, 6, 8, 10, 12)
+    },
     "push.force": ("impulse of a hand that pushes a sliding box, against m v + mu m g t", "%"),
     "slowed.fallen_through": ("bodies of 1,000 that fell through a floor of 20 mm", ""),
     "slowed.bounce": ("a bounce among 300 bodies against the same alone, worst", "%"),

@@ -75,12 +75,16 @@ public:
         return result.handle;
     }
 
-    // The hand goes there in the next tick. The work of the force that it holds meanwhile is counted.
+    // The hand goes there in the next tick. The work of the force that it holds meanwhile is counted, and
+    // that of the mean of this force and the next one.
     void go(const Vec3& to) {
-        hand.velocity = (to - hand.position) / tick;
-        work_ += glm::dot(hand.force, to - hand.position);
+        const Vec3 way = to - hand.position;
+        const Vec3 before = hand.force;
+        hand.velocity = way / tick;
         hand.position = to;
         session_.tick(now_ += 1'000'000);
+        work_ += glm::dot(before, way);
+        work_between_ += 0.5 * glm::dot(before + hand.force, way);
     }
     void wait(double seconds) {
         for (int i = 0; i < seconds / tick; ++i)
@@ -88,6 +92,8 @@ public:
     }
     // On the hand since the beginning (unit: joules).
     double work() const { return work_; }
+    // The same without what a force that is held for a tick adds (unit: joules).
+    double work_between_ticks() const { return work_between_; }
 
     BodyState state(SessionHandle handle) {
         session_.refresh();
@@ -111,6 +117,7 @@ private:
     Session session_;
     Nanoseconds now_ = 0;
     double work_ = 0.0;
+    double work_between_ = 0.0;
 };
 
 void measure_friction(Results& results);

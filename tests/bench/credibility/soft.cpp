@@ -143,6 +143,26 @@ double press_stiffness(int cells) {
     return glm::length(block.pressed(0)) / glm::length(block.surface_point(nearest, middle) - start);
 }
 
+// Force over depth of a fingertip of 10 mm radius in a session, its hand 10 mm below the same block's top.
+double fingertip_stiffness(int cells) {
+    constexpr double half = 0.04, radius = 0.01, spring = 500.0;
+    const SoftBody block =
+        made_of(shared::grid_box(Vec3(half), 16), {.stiffness = 1e4, .damping = 0.02, .drag = 5.0},
+                {Vec3(-1.0), Vec3(1.0, 1e-3 - half, 1.0), {}}, cells);
+    Stage stage(radius, {0.0, half + radius + 1e-4, 0.0}, Vec3(0.0));
+    BodyAddition addition;
+    addition.soft = std::make_shared<const SoftModel>(block.model());
+    addition.touch_material = {spring, 0.0, 0.0, 0.0};
+    stage.session().add_body(addition);
+    stage.wait(0.01);
+    for (int i = 0; i < 101; ++i)
+        stage.go(stage.hand.position - Vec3(0.0, 1e-4, 0.0));
+    stage.wait(1.5);
+    stage.session().refresh();
+    const ProxyState& proxy = stage.session().snapshot().proxies[0];
+    return proxy.force.y / (half + radius - proxy.position.y);
+}
+
 }  // namespace
 
 void measure_soft(Results& results) {
@@ -157,6 +177,8 @@ void measure_soft(Results& results) {
     measure_beam(results, "10MPa", 1e7);
     for (const int cells : {2, 4, 6, 8, 10, 12})
         results.add("soft_press.stiffness_" + std::to_string(cells) + "_cells", press_stiffness(cells));
+    for (const int cells : {2, 4, 6, 8, 10, 12})
+        results.add("soft_press.fingertip_" + std::to_string(cells) + "_cells", fingertip_stiffness(cells));
 }
 
 }  // namespace tactus::bench
