@@ -1,6 +1,7 @@
 #include "nodes/haptic_material.hpp"
 
 #include <godot_cpp/classes/image.hpp>
+#include <initializer_list>
 #include <utility>
 
 #include "nodes/messages.hpp"
@@ -39,6 +40,15 @@ std::shared_ptr<const ForceCurve> force_curve_of(const Curve& drawn) {
 // One that another thread makes has its image later, and says so.
 bool is_without_image(const Ref<Texture2D>& texture, const std::shared_ptr<const TouchImage>& image) {
     return texture.is_valid() && image == nullptr && !texture->is_class("NoiseTexture2D");
+}
+
+// Of those that are set, as "'a', 'b'".
+std::string names_of(std::initializer_list<std::pair<bool, const char*>> all) {
+    std::string names;
+    for (const auto& [is_set, name] : all) {
+        names += is_set ? std::string(names.empty() ? "'" : ", '") + name + "'" : "";
+    }
+    return names;
 }
 
 }  // namespace
@@ -120,20 +130,18 @@ std::shared_ptr<const TouchDetail> HapticMaterial::detail() const {
 }
 
 std::string HapticMaterial::unfelt_by_tools() const {
-    const std::pair<bool, const char*> all[] = {
-        {curve_.is_valid(), "force_curve"},
-        {touch_.texture_depth > 0.0, "texture_depth"},
-        {touch_.magnet_force > 0.0, "magnet_force"},
-        {touch_.viscosity > 0.0, "viscosity"},
-        {touch_.stick_slip_force > 0.0 && touch_.stick_slip_stiffness > 0.0, "stick_slip_force"},
-        {touch_.vibration_force > 0.0, "vibration_force"},
-        {touch_.impact_strength > 0.0, "impact_strength"},
-        {touch_.pop_through_force > 0.0, "pop_through_force"}};
-    std::string names;
-    for (const auto& [is_set, name] : all) {
-        names += is_set ? std::string(names.empty() ? "'" : ", '") + name + "'" : "";
-    }
-    return names;
+    return names_of({{curve_.is_valid(), "force_curve"},
+                     {touch_.texture_depth > 0.0, "texture_depth"},
+                     {touch_.magnet_force > 0.0, "magnet_force"},
+                     {touch_.viscosity > 0.0, "viscosity"},
+                     {touch_.stick_slip_force > 0.0 && touch_.stick_slip_stiffness > 0.0, "stick_slip_force"},
+                     {touch_.vibration_force > 0.0, "vibration_force"},
+                     {touch_.impact_strength > 0.0, "impact_strength"},
+                     {touch_.pop_through_force > 0.0, "pop_through_force"}});
+}
+
+std::string HapticMaterial::untransmitted() const {
+    return names_of({{curve_.is_valid(), "force_curve"}, {touch_.shaft_friction > 0.0, "shaft_friction"}});
 }
 
 TouchMaterial HapticMaterial::touch() const {

@@ -51,6 +51,8 @@ public:
     std::shared_ptr<const TouchDetail> detail() const;
     // The properties that are set and that tools do not feel, as "'a', 'b'"; empty where there are none.
     std::string unfelt_by_tools() const;
+    // The same of those that are not transmitted over a network.
+    std::string untransmitted() const;
     bool is_laid_by_uv() const { return mapping_ == TEXTURE_MAPPING_UV && (images() != TouchImages()); }
 
 protected:

@@ -385,12 +385,19 @@ String MMTLink::way_problem() const {
     return String();
 }
 
+String MMTLink::problem_of_bodies() const {
+    const bool has_model = scenario_ == SCENARIO_MMT || scenario_ == SCENARIO_MMT_ROBOT;
+    const HapticWorld* const world = has_model && !is_operator() ? HapticWorld::above(this) : nullptr;
+    return world != nullptr ? problem_of_transmission(*world) : String();
+}
+
 PackedStringArray MMTLink::_get_configuration_warnings() const {
     PackedStringArray warnings;
     if (!is_inside_tree()) {
         return warnings;
     }
     warn(warnings, "This MMTLink does nothing", problem());
+    warn(warnings, "This MMTLink describes bodies in part", problem_of_bodies());
     if (conditions_.is_valid()) {
         warn(warnings, "The conditions of this MMTLink emulate no trace", conditions_->trace_problem());
         for (const std::string& note : conditions_->notes()) {

@@ -86,6 +86,8 @@ public:
     std::unordered_map<std::string, ModelError> model_errors() const;
     // Why it does nothing; empty where there is no reason.
     godot::String problem() const;
+    // What it does not transmit of the bodies that it describes; empty where there is no such thing.
+    godot::String problem_of_bodies() const;
     // In the same scene; null: none.
     MMTLink* partner_node() const;
     void take_report(const LinkReport& report, const std::vector<ModelNews>& news);

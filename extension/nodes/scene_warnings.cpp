@@ -17,6 +17,7 @@
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_depth_sensor.hpp"
 #include "nodes/haptic_effect.hpp"
+#include "nodes/haptic_joint_drive.hpp"
 #include "nodes/haptic_material.hpp"
 #include "nodes/haptic_mesh.hpp"
 #include "nodes/haptic_tool.hpp"
@@ -49,13 +50,7 @@ std::unordered_map<std::uint64_t, Watched>& watched() {
 }
 
 void look_in_editor(Node& node, Watched& memory) {
-    const std::uint64_t begin = Time::get_singleton()->get_ticks_msec();
-    if (begin < memory.not_before) {
-        return;
-    }
     const PackedStringArray now = node._get_configuration_warnings();
-    const std::uint64_t end = Time::get_singleton()->get_ticks_msec();
-    memory.not_before = end + max_share * (end - begin);
     if (!(now == memory.said)) {
         memory.said = now;
         node.update_configuration_warnings();
@@ -67,6 +62,7 @@ void look_in_game(Node& node, Watched& memory) {
     if (const auto* link = Object::cast_to<MMTLink>(&node)) {
         static Complaints complaints;
         complaints.say(node, link->is_networked() ? link->problem() : String());
+        complaints.say(node, link->problem_of_bodies());
         return;
     }
     const auto* mesh = Object::cast_to<HapticMesh>(&node);
@@ -94,7 +90,12 @@ void look_at_all() {
             one = watched().erase(one);
             continue;
         }
-        in_editor ? look_in_editor(*node, one->second) : look_in_game(*node, one->second);
+        Watched& memory = one->second;
+        if (const std::uint64_t begin = Time::get_singleton()->get_ticks_msec(); begin >= memory.not_before) {
+            in_editor ? look_in_editor(*node, memory) : look_in_game(*node, memory);
+            const std::uint64_t end = Time::get_singleton()->get_ticks_msec();
+            memory.not_before = end + max_share * (end - begin);
+        }
         ++one;
     }
 }
@@ -166,6 +167,27 @@ bool has_two_tools(const Node& world) {
                tools += Object::cast_to<HapticTool>(&node) != nullptr ? 1 : 0;
                return tools == 2;
            }) != nullptr;
+}
+
+struct NamedProperties {
+    String names;  // of properties
+    String body;   // that has them; empty: none does
+};
+
+// Of the first body in those layers whose material has any.
+NamedProperties find_properties(const HapticWorld& world, std::uint32_t mask,
+                                std::string (HapticMaterial::*names_of)() const) {
+    std::string names;
+    const Node* const found = find_below(world, [&](const Node& node) {
+        const auto* body = is_solid_body(&node) ? Object::cast_to<CollisionObject3D>(&node) : nullptr;
+        if (body == nullptr || (body->get_collision_layer() & mask) == 0) {
+            return false;
+        }
+        const auto* material = Object::cast_to<HapticMaterial>(material_of(*body).ptr());
+        names = material != nullptr ? (material->*names_of)() : std::string();
+        return !names.empty();
+    });
+    return found == nullptr ? NamedProperties() : NamedProperties{to_godot(names), found->get_name()};
 }
 
 }  // namespace
@@ -254,19 +276,26 @@ SceneReading read_scene(const HapticWorld& world, const Vec3& hand, double radiu
 }
 
 String problem_of_tool_surfaces(const HapticWorld& world, std::uint32_t mask) {
-    std::string unfelt;
-    const Node* const found = find_below(world, [&](const Node& node) {
-        const auto* body = is_solid_body(&node) ? Object::cast_to<CollisionObject3D>(&node) : nullptr;
-        if (body == nullptr || (body->get_collision_layer() & mask) == 0) {
-            return false;
-        }
-        const auto* material = Object::cast_to<HapticMaterial>(material_of(*body).ptr());
-        unfelt = material != nullptr ? material->unfelt_by_tools() : std::string();
-        return !unfelt.empty();
+    const NamedProperties unfelt = find_properties(world, mask, &HapticMaterial::unfelt_by_tools);
+    return unfelt.body.is_empty() ? String()
+                                  : "a tool does not feel " + unfelt.names + " of the material of '" +
+                                        unfelt.body + "': use a ProxyPointer, or set them to nothing";
+}
+
+String problem_of_transmission(const HapticWorld& world) {
+    if (const NamedProperties lost = find_properties(world, ~0u, &HapticMaterial::untransmitted);
+        !lost.body.is_empty()) {
+        return lost.names + String(" of the material of '") + lost.body +
+               "' is not transmitted, and the operator feels the surface without: leave it out";
+    }
+    Node* const drive = find_below(world, [](const Node& node) {
+        return Object::cast_to<HapticJointDrive>(&node) != nullptr &&
+               Object::cast_to<Joint3D>(node.get_parent()) != nullptr;
     });
-    return found == nullptr ? String()
-                            : "a tool does not feel " + to_godot(unfelt) + " of the material of '" +
-                                  String(found->get_name()) + "': use a ProxyPointer, or set them to nothing";
+    return drive == nullptr ? String()
+                            : "the drive '" + String(world.get_path_to(drive)) +
+                                  "' is not transmitted, and the operator's model of its joint goes without: "
+                                  "take it away";
 }
 
 String problem_of_emptiness(const HapticWorld& world) {

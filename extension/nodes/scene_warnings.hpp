@@ -32,6 +32,9 @@ godot::String problem_of_outside(const HapticWorld& world);
 // feels all of them.
 godot::String problem_of_tool_surfaces(const HapticWorld& world, std::uint32_t mask);
 
+// What of a world's bodies is not transmitted to the operator, and what to do; empty where all of it is.
+godot::String problem_of_transmission(const HapticWorld& world);
+
 // The bodies below a world as they stand, whether it runs or not.
 struct SceneReading {
     SceneFacts facts;

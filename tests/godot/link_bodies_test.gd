@@ -121,3 +121,33 @@ func test_an_operator_that_is_moved_touches_as_before() -> void:
 
 func test_a_far_world_that_jumps_is_touched_directly_as_before() -> void:
 	await _move_while_touching(MMTLink.SCENARIO_DIRECT, true, Transform3D(Basis(), Vector3(1, 0.5, 2)), 1)
+
+
+## The problems of the far side's link.
+func _untransmitted() -> String:
+	return "; ".join(_there.get_problems())
+
+
+## The operator's model has neither of them: the far side says so, the operator's side and one without a
+## model do not.
+func test_what_is_not_transmitted_of_a_body_is_said() -> void:
+	await _connect(MMTLink.SCENARIO_MMT)
+	var material_there := add_floor(_far, STIFFNESS).physics_material_override as HapticMaterial
+	check_equal(_untransmitted(), "", "of a floor that is transmitted whole")
+	material_there.shaft_friction = 20.0
+	check(_untransmitted().contains("'shaft_friction' of the material of 'Floor'"), _untransmitted())
+	material_there.force_curve = Curve.new()
+	check(_untransmitted().contains("'force_curve', 'shaft_friction' of"), _untransmitted())
+	check_equal(_here.get_problems().size(), 0, "said by the operator's side")
+	_there.scenario = MMTLink.SCENARIO_DIRECT
+	check_equal(_untransmitted(), "", "where forces travel, and no model")
+	_there.scenario = MMTLink.SCENARIO_MMT
+	material_there.force_curve = null
+	material_there.shaft_friction = 0.0
+	var hinge := HingeJoint3D.new()
+	_far.add_child(hinge)
+	check_equal(_untransmitted(), "", "of a hinge")
+	var drive := HapticJointDrive.new()
+	drive.name = "Detents"
+	hinge.add_child(drive)
+	check(_untransmitted().contains("Detents' is not transmitted"), _untransmitted())
