@@ -61,8 +61,8 @@ inline FloatLanes splat_float(float v) {
 // Beyond that it is as far away as can be: its square stays a number, and so the infinite distance of unused
 // slots stays one. Meshes end at 1e9 m, so no distance is overestimated.
 inline FloatPoint to_float_point(const Vec3& p) {
-    constexpr double farthest = 1e18;  // (unit: meters)
-    const Vec3 near = glm::min(glm::max(p, Vec3(-farthest)), Vec3(farthest));
+    constexpr double far_away = 1e18;  // (unit: meters)
+    const Vec3 near = glm::min(glm::max(p, Vec3(-far_away)), Vec3(far_away));
     return {splat_float(static_cast<float>(near.x)), splat_float(static_cast<float>(near.y)),
             splat_float(static_cast<float>(near.z))};
 }
