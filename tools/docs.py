@@ -49,11 +49,11 @@ def main(arguments: list[str]) -> int:
 
         changed = tables.all_tables()
         print(f"{len(changed)} tables are others than they were{': ' if changed else ''}{', '.join(changed)}")
-        return 0
     if "--pictures" in arguments:
         import docs_pictures
 
         print(f"docs/pictures: {', '.join(docs_pictures.make())}")
+    if arguments:
         return 0
     source = cache.emptied(cache.clone() / "build/docs_source")
     write(source)

@@ -16,7 +16,7 @@ class Pace:
     """How long what is left will take, as long as each takes what the last few have taken."""
 
     LAST = 20
-    FROM = 5.0  # what is shorter tells nothing (unit: seconds)
+    FROM, OF_ALL = 5.0, 0.05  # what is shorter (unit: seconds), or less of all, tells nothing
 
     def __init__(self, clock: Callable[[], float] = time.monotonic):
         self._clock = clock
@@ -26,7 +26,7 @@ class Pace:
         """After `done` of `wanted`; None where that cannot be told yet (unit: seconds)."""
         self._ends.append((self._clock(), done))
         (began, first), (now, last) = self._ends[0], self._ends[-1]
-        if now - began < self.FROM or last <= first:
+        if now - began < self.FROM or last <= first or done < self.OF_ALL * wanted:
             return None
         return (now - began) / (last - first) * (wanted - done)
 
