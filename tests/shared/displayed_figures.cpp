@@ -12,6 +12,7 @@
 #include "realtime/sleeper.hpp"
 #include "shared/bench_kit.hpp"
 #include "shared/driver_figures.hpp"
+#include "shared/even_ticks.hpp"
 #include "shared/processor_stalls.hpp"
 
 namespace tactus::shared {
@@ -40,16 +41,25 @@ private:
     std::vector<std::thread> threads_;
 };
 
-// The loop, and what it sees of the device just before it writes.
+// The loop, and what it sees of the device just before it writes. No list grows here: that may take a
+// millisecond of a tick.
 class ContactLoop {
 public:
     ContactLoop(const WatchedDevice& watched, const DisplayedCase& c, DriverDevice& device,
-                const ProcessorStalls& stalls, DisplayedFigures& figures, std::vector<double>& writes)
-        : watched_(watched), case_(c), device_(device), stalls_(stalls), figures_(figures), writes_(writes) {}
+                const ProcessorStalls& stalls, DisplayedFigures& figures, DurationHistogram& writes)
+        : watched_(watched),
+          case_(c),
+          device_(device),
+          stalls_(stalls),
+          figures_(figures),
+          writes_(writes),
+          period_(from_seconds(1.0 / c.rate)),
+          even_(period_),
+          deadline_(monotonic_now() / period_ * period_) {}
 
     bool wait_for_hand() {
         for (const Nanoseconds end = monotonic_now() + 5'000'000'000; monotonic_now() < end;) {
-            if (tick(Vec3(0.0)).connected) {
+            if (tick(Vec3(0.0)).is_connected) {
                 return true;
             }
         }
@@ -63,8 +73,7 @@ public:
         }
         last_wanted_ = wanted;
         for (const Nanoseconds end = monotonic_now() + from_seconds(seconds); monotonic_now() < end;) {
-            tick(wanted);
-            note();
+            note(tick(wanted));
         }
     }
     // As the safety layer lets a force grow.
@@ -72,7 +81,6 @@ public:
         for (int i = 1; i <= 20; ++i) {
             tick(wanted * (i / 20.0));
         }
-        cuts_ = cuts_of(device_.health());
     }
     void stop_for(Nanoseconds span) {
         SleepTimer().sleep_until(monotonic_now() + span);
@@ -84,33 +92,36 @@ private:
     static std::uint64_t cuts_of(const DriverHealth& health) {
         return std::accumulate(health.cuts.begin(), health.cuts.end(), std::uint64_t{0});
     }
-    DeviceSample tick(const Vec3& wanted) {
-        const Nanoseconds period = from_seconds(1.0 / case_.rate);
-        deadline_ = std::max(deadline_ + period, monotonic_now() - 20 * period);
+    struct Tick {
+        bool is_connected = false, is_even = false;
+        double seen = 0.0;       // of the force (unit: newtons)
+        std::uint64_t cuts = 0;  // since the last tick
+    };
+    Tick tick(const Vec3& wanted) {
+        Tick tick;
+        TickTimes times;
+        deadline_ = std::max(deadline_ + period_, monotonic_now() - 20 * period_);
         sleeper_.wait_until(deadline_);
-        const DeviceSample sample = device_.read(deadline_);
-        seen_ = watched_.force().y;
-        const Nanoseconds before = monotonic_now();
+        tick.is_connected = device_.read(deadline_).connected;
+        tick.seen = watched_.force().y;
+        times.writes = monotonic_now();
         device_.write(deadline_, wanted);
-        const Nanoseconds written = monotonic_now();
-        writes_.push_back(1e-3 * static_cast<double>(written - before));
-        // A force lives for at least 1.5 ms, or for half a period more than one.
-        const Nanoseconds late = std::max<Nanoseconds>(1'400'000, period * 11 / 10);
-        const bool is_late = written - last_ > late || stalls_.any_since(last_);
-        since_late_ = is_late ? 0 : since_late_ + 1;
-        last_ = written;
-        return sample;
-    }
-    void note() {
+        times.written = monotonic_now();
         const std::uint64_t cuts = cuts_of(device_.health());
-        const std::uint64_t news = cuts - std::exchange(cuts_, cuts);
-        figures_.cuts += news;
+        tick.cuts = cuts - std::exchange(cuts_, cuts);
+        times.counted = monotonic_now();
+        tick.is_even = even_.add(times, stalls_.any_since(even_.last()));
+        writes_.add(times.written - times.writes);
+        return tick;
+    }
+    void note(const Tick& tick) {
+        figures_.cuts += tick.cuts;
         ++figures_.ticks;
-        if (since_late_ > 10) {
+        if (tick.is_even) {
             ++figures_.even_ticks;
-            figures_.let_go_while_even += news;
+            figures_.let_go_while_even += tick.cuts;
             asked_ += case_.newtons;
-            displayed_ += seen_;
+            displayed_ += tick.seen;
         }
     }
 
@@ -119,13 +130,13 @@ private:
     DriverDevice& device_;
     const ProcessorStalls& stalls_;
     DisplayedFigures& figures_;
-    std::vector<double>& writes_;
+    DurationHistogram& writes_;
     Sleeper sleeper_{SleepSettings{}};
-    Nanoseconds deadline_ = monotonic_now() / from_seconds(1.0 / case_.rate) * from_seconds(1.0 / case_.rate);
-    Nanoseconds last_ = 0;
-    double asked_ = 0.0, displayed_ = 0.0, seen_ = 0.0;
+    Nanoseconds period_;
+    EvenTicks even_;
+    Nanoseconds deadline_;
+    double asked_ = 0.0, displayed_ = 0.0;
     std::uint64_t cuts_ = 0;
-    int since_late_ = 0;  // ticks
     Vec3 last_wanted_{0.0};
 };
 
@@ -141,7 +152,8 @@ std::string refusal(const WatchedDevice& watched, double rate) {
 
 DisplayedFigures play_displayed(const WatchedDevice& watched, const DisplayedCase& c) {
     DisplayedFigures figures;
-    std::vector<double> writes, p50, p99;
+    DurationHistogram writes;
+    std::vector<double> p50, p99;
     const BusyProcessors load(c.is_loaded ? 2 : 0);
     const ProcessorStalls stalls;
     const Nanoseconds period = from_seconds(1.0 / c.rate);
@@ -174,8 +186,8 @@ DisplayedFigures play_displayed(const WatchedDevice& watched, const DisplayedCas
     }
     figures.delay_p50_us = quantile(p50, 0.5);
     figures.delay_p99_us = p99.empty() ? 0.0 : *std::max_element(p99.begin(), p99.end());
-    figures.write_p50_us = quantile(writes, 0.5);
-    figures.write_p99_us = quantile(writes, 0.99);
+    figures.write_p50_us = 1e-3 * writes.quantile(0.5);
+    figures.write_p99_us = 1e-3 * writes.quantile(0.99);
     return figures;
 }
 

@@ -32,8 +32,7 @@ struct DisplayedFigures {
     double over_asked_min = 1.0;          // mean displayed force over the asked one, of the worst phase
     std::uint64_t let_go_while_even = 0;  // cuts in even ticks
     std::uint64_t cuts = 0;
-    // Even is a tick where for ten ticks none was so late that a cut was right, and no processor stood still:
-    // only these are judged.
+    // Only even ones are judged (shared/even_ticks.hpp).
     std::uint64_t ticks = 0, even_ticks = 0;
     double delay_p50_us = 0.0, delay_p99_us = 0.0;  // from a reading until its force was handed over
     double write_p50_us = 0.0, write_p99_us = 0.0;  // that Device::write() takes of the loop's time
