@@ -162,10 +162,12 @@ def serve(client: socket.socket, manner: str, lie: list[str]) -> None:
                     manner = "nonsense"
                 else:
                     return
-            if client not in readable:
+            elif client not in readable:
                 print("waited", flush=True)
                 is_told_again = True
                 break  # no answer yet: it is told again, as the real one does at its own pace
+            if client not in readable:
+                continue
             text = message(client)
             if text is not None:
                 last = heard(force_of(text), last, states)

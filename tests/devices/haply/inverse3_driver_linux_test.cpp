@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <functional>
 #include <glm/geometric.hpp>
 #include <string>
+#include <thread>
 
 #include "shared/driven_device.hpp"
 #include "shared/haply_service.hpp"
@@ -135,6 +137,23 @@ TEST(Inverse3, AForceThatTheLoopTakesAwayWaitsForNoState) {
     driver.write(Vec3(0.0), 0);
     driver.reads_at_once();
     EXPECT_TRUE(wait_until([&] { return service.force() == "0.0 0.0 0.0"; }));
+}
+
+// The stand-in told its state once more for each line that it was told, and was answered twice: from then on
+// every answer waited in it for a state.
+TEST(Inverse3, AStandInThatIsToldToLieIsNoAnswerBehind) {
+    NEEDS_LIBRARIES();
+    HaplyService service;
+    InverseExchanges driver(service);
+    ASSERT_TRUE(driver.next_reading());
+    const int before = service.waited();
+    for (const stand_ins::Lie lie : {stand_ins::Lie::leaps, stand_ins::Lie::none, stand_ins::Lie::leaps}) {
+        service.lie(stand_ins::Field::buttons, lie);
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));  // it has read that, and has no answer
+        ASSERT_TRUE(driver.next_reading());
+        ASSERT_TRUE(driver.next_reading());
+    }
+    EXPECT_LT(service.waited() - before, 3) << "on a machine that is late it may wait in earnest";
 }
 
 // The service takes one message for each state: each one more was an answer late, with all forces behind it.
