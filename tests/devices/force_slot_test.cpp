@@ -189,6 +189,28 @@ TEST(ForceSlot, TheHandIsFreeTwoMillisecondsAfterTheDevice) {
     EXPECT_EQ(line.slot.cuts()[static_cast<std::size_t>(ForceCut::device_silent)], 1u);
 }
 
+// Behind a device that is slower than it says, or whose readings come late now and then, a force outlived the
+// first reading that did not come by a whole exchange more.
+TEST(ForceSlot, TheHandIsFreeTwoMillisecondsAfterAReadingThatDoesNotCome) {
+    struct Rhythm {
+        Nanoseconds usual, late;  // from one reading to the next; every fiftieth is late
+    };
+    for (const Rhythm& rhythm : {Rhythm{ms, ms}, Rhythm{ms * 105 / 100, ms * 17 / 10},
+                                 Rhythm{ms * 16 / 10, ms * 16 / 10}, Rhythm{ms * 23 / 10, ms * 23 / 10}}) {
+        Line line;
+        for (int i = 0; i < 5'000; ++i) {
+            line.look = i % 50 == 0 ? rhythm.late : rhythm.usual;
+            line.run_until(line.next_look + 1);
+        }
+        ASSERT_EQ(line.displayed, asked);
+        line.device_goes = false;
+        line.next_look -= line.look - ms / 20;  // the driver has just read, and looks on
+        line.look = ms / 20;
+        line.run_until(line.now + rhythm.usual + free_within);
+        EXPECT_EQ(line.displayed, Vec3(0.0)) << rhythm.usual << ", " << rhythm.late;
+    }
+}
+
 TEST(ForceSlot, TheHandIsFreeTwoMillisecondsAfterTheDriver) {
     Line line;
     line.run_until(begin + 50 * ms);

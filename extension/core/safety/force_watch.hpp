@@ -51,13 +51,13 @@ constexpr Nanoseconds slowest_tick = longest_life * 10 / 11;
 // Why a device gives no force at this pace, and what to do; empty where it does.
 std::string why_no_force(const LoopPace& pace);
 
-// A tick, or an exchange, that is late by half of its period is still in time. `tick`: the period of the
-// loop, at most slowest_tick; `exchange`: that of the device where it keeps a time of its own, else 0.
+// A tick, an exchange or a reading that is late by half of its period is still in time. `tick`: the period of
+// the loop, at most slowest_tick; `exchange`: that of the device where it keeps a time of its own, else 0.
 constexpr ForceLife force_life(Nanoseconds tick, Nanoseconds exchange) {
     ForceLife life;
     life.written = std::clamp(tick * 3 / 2, shortest_life, longest_life);
     life.sent = std::max(life.written, exchange * 3 / 2);
-    life.heard = std::max(longest_life, exchange * 2);
+    life.heard = std::max(longest_life, exchange * 3 / 2);
     life.grace = (free_within - life.written) / 3;
     return life;
 }
