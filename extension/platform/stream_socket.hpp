@@ -19,7 +19,7 @@ public:
     StreamSocket(const StreamSocket&) = delete;
     StreamSocket& operator=(const StreamSocket&) = delete;
 
-    // To a port of this machine. Empty, or why not.
+    // To a port of this machine, within a tenth of a second. Empty, or why not.
     std::string connect_here(std::uint16_t port);
     // To the socket at this place of the file system, where the system has such sockets.
     std::string connect_to(const std::string& path);

@@ -16,7 +16,9 @@ namespace tactus {
 
 namespace {
 
-constexpr int send_time = 100;  // (unit: milliseconds)
+// (unit: milliseconds)
+constexpr int send_time = 100;
+constexpr int connect_time = 50;
 
 #ifdef MSG_NOSIGNAL
 constexpr int send_flags = MSG_NOSIGNAL;
@@ -34,6 +36,24 @@ bool ready(int handle, short events, int milliseconds) {
     return poll(&file, 1, milliseconds) > 0;
 }
 
+// 0, or the error. The kernel answers at once for a service that listens; one whose queue is full is too busy
+// to be waited for.
+int connect_soon(int handle, const sockaddr_in& address) {
+    if (connect(handle, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) {
+        return 0;
+    }
+    if (errno != EINPROGRESS) {
+        return errno;
+    }
+    if (!ready(handle, POLLOUT, connect_time)) {
+        return ETIMEDOUT;
+    }
+    int error = 0;
+    socklen_t size = sizeof error;
+    getsockopt(handle, SOL_SOCKET, SO_ERROR, &error, &size);
+    return error;
+}
+
 }  // namespace
 
 std::string StreamSocket::connect_here(std::uint16_t port) {
@@ -46,14 +66,13 @@ std::string StreamSocket::connect_here(std::uint16_t port) {
     address.sin_family = AF_INET;
     address.sin_port = htons(port);
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    if (connect(made, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
-        const std::string why = last_system_message();
+    make_ours(made);
+    if (const int error = connect_soon(made, address); error != 0) {
         ::close(made);
-        return why;
+        return system_message(error);
     }
     const int on = 1;
     setsockopt(made, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
-    make_ours(made);
     handle_ = made;
     return {};
 }

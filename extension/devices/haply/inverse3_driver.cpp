@@ -48,7 +48,7 @@ std::string Inverse3Driver::open(const std::atomic<bool>& stop) {
     if (std::string problem = json_.load(); !problem.empty()) {
         return problem;
     }
-    if (const std::string why = socket_.open(port_); !why.empty()) {
+    if (const std::string why = socket_.open(port_, stop); !why.empty()) {
         return "Haply's service does not run here (" + why + "): install and start Haply Hub";
     }
     std::string problem = "Haply's service says nothing: start Haply Hub anew";

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <span>
 
+#include "platform/clock.hpp"
+
 namespace tactus {
 
 namespace {
@@ -18,6 +20,7 @@ constexpr int callback_failed = -400;
 constexpr std::uint64_t longest_message = 1 << 20;
 constexpr std::size_t longest_answer = 4096;
 constexpr Nanoseconds handshake_time = 1'000'000'000;
+constexpr Nanoseconds part_of_handshake = 10'000'000;
 
 }  // namespace
 
@@ -41,12 +44,12 @@ std::string WebSocket::load() {
     return all ? "" : "the installed wslay is too old: version 1.1 or later is needed";
 }
 
-std::string WebSocket::open(std::uint16_t port) {
+std::string WebSocket::open(std::uint16_t port, const std::atomic<bool>& stop) {
     close();
     if (std::string problem = load(); !problem.empty()) {
         return problem;
     }
-    if (std::string problem = shake_hands(port); !problem.empty()) {
+    if (std::string problem = shake_hands(port, stop); !problem.empty()) {
         socket_.close();
         return problem;
     }
@@ -105,7 +108,7 @@ std::string WebSocket::open(std::uint16_t port) {
 
 // RFC 6455, 4.1. The key only shows that the service read the request; to a service of this machine any will
 // do.
-std::string WebSocket::shake_hands(std::uint16_t port) {
+std::string WebSocket::shake_hands(std::uint16_t port, const std::atomic<bool>& stop) {
     if (const std::string why = socket_.connect_here(port); !why.empty()) {
         return "no program answers at port " + std::to_string(port) + " of this machine: " + why;
     }
@@ -119,11 +122,13 @@ std::string WebSocket::shake_hands(std::uint16_t port) {
         return no_web_socket;
     }
     std::string answer;
+    const Nanoseconds until = monotonic_now() + handshake_time;
     std::size_t end = std::string::npos;
     while (end == std::string::npos) {
         std::array<std::uint8_t, 1024> part{};
-        const StreamSocket::Received got = socket_.receive(part, handshake_time);
-        if (got.state != StreamSocket::State::done || answer.size() > longest_answer) {
+        const StreamSocket::Received got = socket_.receive(part, part_of_handshake);
+        const bool is_in_time = monotonic_now() < until && !stop.load();
+        if (got.state == StreamSocket::State::gone || !is_in_time || answer.size() > longest_answer) {
             return no_web_socket;
         }
         answer.append(reinterpret_cast<const char*>(part.data()), got.bytes);

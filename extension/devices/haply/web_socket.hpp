@@ -6,6 +6,7 @@
 // Threads: one at a time.
 #pragma once
 
+#include <atomic>
 #include <string>
 
 #include "devices/runtime_library.hpp"
@@ -18,8 +19,8 @@ public:
     WebSocket() = default;
     ~WebSocket() { close(); }
 
-    // Empty, or what to do.
-    std::string open(std::uint16_t port);
+    // Gives up soon after `stop` is set. Empty, or what to do.
+    std::string open(std::uint16_t port, const std::atomic<bool>& stop);
     void close();
 
     // The newest text that has come, waiting until then, and how many have come; the older ones are lost.
@@ -67,7 +68,7 @@ private:
 
     void send(std::uint8_t opcode, const std::string& text);
     std::string load();
-    std::string shake_hands(std::uint16_t port);
+    std::string shake_hands(std::uint16_t port, const std::atomic<bool>& stop);
 
     RuntimeLibrary library_;
     Functions wslay_;

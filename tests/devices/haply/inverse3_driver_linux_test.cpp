@@ -2,12 +2,17 @@
 #include "devices/haply/inverse3_driver.hpp"
 
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <functional>
 #include <glm/geometric.hpp>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "shared/driven_device.hpp"
 #include "shared/haply_service.hpp"
@@ -236,6 +241,91 @@ TEST(Inverse3, ConnectsAnewWhenTheServiceHasClosed) {
     ASSERT_TRUE(tick_until(*device, Vec3(0.0), [](const DeviceSample& sample) { return !sample.connected; }));
     EXPECT_TRUE(tick_until(*device, Vec3(0.0), [](const DeviceSample& sample) { return sample.connected; }));
     EXPECT_EQ(device->health().times_lost, 1u);
+}
+
+// A service that the kernel takes connections for, and that does nothing with them.
+class HungService {
+public:
+    explicit HungService(int queue) : listener_(socket(AF_INET, SOCK_STREAM, 0)) {
+        sockaddr_in address{};
+        address.sin_family = AF_INET;
+        address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        socklen_t size = sizeof address;
+        EXPECT_EQ(bind(listener_, reinterpret_cast<sockaddr*>(&address), size), 0);
+        EXPECT_EQ(listen(listener_, queue), 0);
+        EXPECT_EQ(getsockname(listener_, reinterpret_cast<sockaddr*>(&address), &size), 0);
+        address_ = address;
+    }
+    ~HungService() {
+        for (const int client : clients_) {
+            close(client);
+        }
+        close(listener_);
+    }
+    HungService(const HungService&) = delete;
+    HungService& operator=(const HungService&) = delete;
+
+    std::uint16_t port() const { return ntohs(address_.sin_port); }
+    bool is_called() const {
+        pollfd file{listener_, POLLIN, 0};
+        return poll(&file, 1, 0) > 0;
+    }
+    // So that the next one waits.
+    void fill_queue() {
+        for (int i = 0; i < 8; ++i) {
+            clients_.push_back(socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK, 0));
+            connect(clients_.back(), reinterpret_cast<const sockaddr*>(&address_), sizeof address_);
+        }
+    }
+    // Answers with a byte.
+    void drip() {
+        if (clients_.empty()) {
+            clients_.push_back(accept(listener_, nullptr, nullptr));
+        }
+        send(clients_.back(), "H", 1, MSG_NOSIGNAL);
+    }
+
+private:
+    int listener_;
+    sockaddr_in address_{};
+    std::vector<int> clients_;
+};
+
+// The destructor waited a second for the answer, or minutes for a connection: "restart the program".
+TEST(Inverse3, AServiceThatDoesNotAnswerHoldsUpNoDestructor) {
+    NEEDS_LIBRARIES();
+    static std::string told;
+    told.clear();
+    DriverDevice::when_left_behind([](const std::string& text) { told = text; });
+    {
+        const HungService service(8);
+        DriverDevice device(std::make_unique<Inverse3Driver>("", service.port()));
+        ASSERT_TRUE(wait_until([&] { return service.is_called(); }));
+    }
+    EXPECT_EQ(told, "");
+    {
+        HungService service(0);
+        service.fill_queue();
+        DriverDevice device(std::make_unique<Inverse3Driver>("", service.port()));
+        EXPECT_TRUE(says(device, "no program answers"));
+    }
+    EXPECT_EQ(told, "");
+    DriverDevice::when_left_behind(nullptr);
+}
+
+// Each byte began the second anew in which an answer has to come.
+TEST(Inverse3, AServiceThatAnswersWithAByteNowAndThenIsNone) {
+    NEEDS_LIBRARIES();
+    HungService service(8);
+    DriverDevice device(std::make_unique<Inverse3Driver>("", service.port()));
+    ASSERT_TRUE(wait_until([&] { return service.is_called(); }));
+    int rounds = 0;
+    EXPECT_TRUE(wait_until([&] {
+        if (rounds++ % 20 == 0) {
+            service.drip();
+        }
+        return device.health().text.find("no WebSocket") != std::string::npos;
+    }));
 }
 
 TEST(Inverse3, SaysWhatIsMissing) {
