@@ -17,6 +17,8 @@ struct JointRange {
 
     static constexpr JointRange locked() { return {0.0, 0.0}; }
     static constexpr JointRange free() { return {1.0, -1.0}; }
+    constexpr bool is_locked() const { return lower == 0.0 && upper == 0.0; }
+    constexpr bool is_free() const { return lower > upper; }
 };
 
 enum class JointKind {
@@ -66,6 +68,14 @@ struct JointId {
     bool valid() const { return value != 0xffffffffu; }
     friend bool operator==(JointId, JointId) = default;
 };
+
+// Nearest to `relative` that the joint allows: the pose of the second body's frame in the first body's. Each
+// locked axis is at its zero. Limits of rotation count where one axis rotates.
+Pose nearest_allowed(const JointDescription& joint, const Pose& relative);
+// The same for the pose of one of the bodies. The joint's frames are in those of the bodies, both of them
+// known.
+Pose first_allowed(const JointDescription& joint, const Pose& first, const Pose& second);
+Pose second_allowed(const JointDescription& joint, const Pose& first, const Pose& second);
 
 // What is wrong with it and what to do; empty when nothing is.
 std::string wrong_in(const JointDescription& joint);

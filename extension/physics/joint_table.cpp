@@ -21,18 +21,9 @@ namespace {
 constexpr std::uint32_t index_bits = 16;
 constexpr std::uint32_t index_mask = (1u << index_bits) - 1;
 
-bool is_free(const JointRange& range) {
-    return range.lower > range.upper;
-}
-
-bool is_locked(const JointRange& range) {
-    return range.lower == 0.0 && range.upper == 0.0;
-}
-
 bool holds_point(const JointDescription& joint) {
     return joint.kind == JointKind::Pin || joint.kind == JointKind::Hinge ||
-           (joint.kind == JointKind::SixAxes &&
-            std::all_of(joint.linear.begin(), joint.linear.end(), is_locked));
+           (joint.kind == JointKind::SixAxes && std::ranges::all_of(joint.linear, &JointRange::is_locked));
 }
 
 JPH::Vec3 axis(const Pose& frame, const Vec3& in_frame) {
@@ -53,7 +44,7 @@ JPH::TwoBodyConstraint* pin(const JointDescription& joint, JPH::Body& first, JPH
 // Jolt's limits enclose its zero, ours need not: its zero is put into the middle of the range.
 JPH::TwoBodyConstraint* hinge(const JointDescription& joint, JPH::Body& first, JPH::Body& second) {
     const JointRange& range = joint.angular[2];
-    const bool free = is_free(range) || range.upper - range.lower >= 2.0 * std::numbers::pi;
+    const bool free = range.is_free() || range.upper - range.lower >= 2.0 * std::numbers::pi;
     const double middle = free ? 0.0 : 0.5 * (range.lower + range.upper);
     const double half = free ? std::numbers::pi : 0.5 * (range.upper - range.lower);
     const JPH::Ref settings = new JPH::HingeConstraintSettings;
@@ -89,9 +80,9 @@ JPH::TwoBodyConstraint* six_axes(const JointDescription& joint, JPH::Body& first
     settings->mSwingType = JPH::ESwingType::Pyramid;
     const auto limit = [&settings](int index, const JointRange& range, double to_jolt, double full) {
         const auto which = static_cast<Axis>(index);
-        if (is_free(range) || range.upper - range.lower >= full)
+        if (range.is_free() || range.upper - range.lower >= full)
             settings->MakeFreeAxis(which);
-        else if (is_locked(range))
+        else if (range.is_locked())
             settings->MakeFixedAxis(which);
         else
             settings->SetLimitedAxis(
@@ -130,7 +121,7 @@ std::string wrong_in(const JointDescription& joint) {
             if (!std::isfinite(range.lower + range.upper))
                 return "a limit of the joint is not a finite number";
     for (const JointRange& range : joint.angular)
-        if (!is_free(range) && (range.lower < -std::numbers::pi || range.upper > std::numbers::pi))
+        if (!range.is_free() && (range.lower < -std::numbers::pi || range.upper > std::numbers::pi))
             return "an angle limit of the joint is beyond half a turn; keep within -180 to 180 degrees";
     if (!std::isfinite(joint.motor_speed) ||
         !(joint.motor_torque >= 0.0 && std::isfinite(joint.motor_torque)))
@@ -151,7 +142,8 @@ JointTable::JointTable(JPH::PhysicsSystem& system, std::size_t most) : system_(s
     SetEmbedded();  // lives in the world, Jolt does not delete it
 }
 
-JointId JointTable::add(const JointDescription& description, JPH::Body& first, JPH::Body& second) {
+JointId JointTable::add(const JointDescription& description, JPH::Body& first, JPH::Body& second,
+                        const Pose& first_pose, const Pose& second_pose) {
     const auto vacant = std::find_if(joints_.begin(), joints_.end(),
                                      [](const Joint& joint) { return joint.constraint == nullptr; });
     if (vacant == joints_.end())
@@ -162,6 +154,9 @@ JointId JointTable::add(const JointDescription& description, JPH::Body& first, J
     vacant->bodies_collide = description.bodies_collide;
     vacant->holds_point = holds_point(description);
     vacant->axis = JointAxis(description, *vacant->constraint);
+    vacant->described = description;
+    vacant->described.frame = compose(inverse(first_pose), description.frame);
+    vacant->described.second_frame = compose(inverse(second_pose), second_frame(description));
     join_group(first);
     join_group(second);
     system_.AddConstraint(vacant->constraint);

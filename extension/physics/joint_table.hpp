@@ -24,7 +24,9 @@ public:
     JointTable(JPH::PhysicsSystem& system, std::size_t most);
 
     // The bodies are different and at least one of them can move; the description has nothing wrong.
-    JointId add(const JointDescription& description, JPH::Body& first, JPH::Body& second);
+    // `first_pose`, `second_pose`: where they are.
+    JointId add(const JointDescription& description, JPH::Body& first, JPH::Body& second,
+                const Pose& first_pose, const Pose& second_pose);
     bool remove(JointId id);
     void remove_all_of(const JPH::Body& body);
     void forget_impulses_of(const JPH::Body& body);  // of the last step, which the next would begin with
@@ -34,6 +36,23 @@ public:
 
     // Before a step: drives all joints, and notes the points that some hold.
     void begin_step(JointSwing& swing);
+
+    // Nearest to `pose` that the joints of the body to what does not move allow, one after the other.
+    // `pose_of`: of a body that does not move.
+    template <typename PoseOf>
+    Pose on_joints(const JPH::Body& body, Pose pose, const PoseOf& pose_of) const {
+        for (const Joint& joint : joints_) {
+            if (!joint.holds(body))
+                continue;
+            const JPH::Body& first = *joint.constraint->GetBody1();
+            const JPH::Body& second = *joint.constraint->GetBody2();
+            if (&first == &body && second.IsStatic())
+                pose = first_allowed(joint.described, pose, pose_of(second));
+            else if (&second == &body && first.IsStatic())
+                pose = second_allowed(joint.described, pose_of(first), pose);
+        }
+        return pose;
+    }
 
     std::size_t count() const { return count_; }
 
@@ -48,6 +67,7 @@ private:
         bool bodies_collide = true;
         bool holds_point = false;  // of both bodies, the same one
         JointAxis axis;
+        JointDescription described;  // its frames in those of the bodies
         std::uint32_t generation = 0;
 
         bool holds(const JPH::Body& body) const {

@@ -149,7 +149,8 @@ JointId PhysicsWorld::add_joint(const JointDescription& joint, BodyId first, Bod
         !(a->CanBeKinematicOrDynamic() || b->CanBeKinematicOrDynamic()))
         return {};
     const LoopMemoryScope scope(impl_->memory);
-    const JointId id = impl_->joints.add(joint, *a, *b);
+    const JointId id = impl_->joints.add(joint, *a, *b, first.valid() ? pose(first) : Pose{},
+                                         second.valid() ? pose(second) : Pose{});
     ++impl_->structure;
     for (JPH::Body* body : {a, b})
         if (body != &JPH::Body::sFixedToWorld) {
@@ -163,6 +164,15 @@ bool PhysicsWorld::remove_joint(JointId id) {
     const LoopMemoryScope scope(impl_->memory);
     ++impl_->structure;
     return impl_->joints.remove(id);
+}
+
+Pose PhysicsWorld::on_joints(BodyId id, const Pose& pose) const {
+    const JPH::Body* const body = impl_->find(id);
+    if (body == nullptr || impl_->joints.count() == 0)
+        return pose;
+    return impl_->joints.on_joints(*body, pose, [this](const JPH::Body& other) {
+        return other.GetID().IsInvalid() ? Pose{} : this->pose({other.GetID().GetIndexAndSequenceNumber()});
+    });
 }
 
 std::size_t PhysicsWorld::joint_count() const {

@@ -117,6 +117,8 @@ public:
     JointId add_joint(const JointDescription& joint, BodyId first, BodyId second);
     bool remove_joint(JointId id);
     std::size_t joint_count() const;
+    // Nearest to `pose` that the joints of the body to what does not move allow.
+    Pose on_joints(BodyId id, const Pose& pose) const;
 
     // After many bodies were added one by one, before the loop runs: makes finding neighbours fast at once
     // rather than over the next steps. Takes milliseconds for thousands of bodies.

@@ -6,10 +6,10 @@
 // present state, by a formula (derivation.hpp) or by doing the past again (resimulator.hpp). The model is put
 // right at once; what the hand feels of it goes through one place (felt_pointer.hpp).
 //
-// operator_side.cpp hears and compares, operator_learning.cpp learns what bodies weigh and how they slide,
-// and takes over what the far side has learnt, operator_touch.cpp puts right and gives the hand its force,
-// operator_sending.cpp tells the far side. operator_tools.cpp does for hands that hold a tool what the last
-// two do for pointers.
+// operator_side.cpp hears and compares, operator_belief.cpp filters what is seen roughly,
+// operator_learning.cpp learns what bodies weigh and how they slide, and takes over what the far side has
+// learnt, operator_touch.cpp puts right and gives the hand its force, operator_sending.cpp tells the far
+// side. operator_tools.cpp does for hands that hold a tool what the last two do for pointers.
 #pragma once
 
 #include "core/haptics/surface_spring.hpp"
@@ -151,9 +151,6 @@ private:
     void bind(const ObjectBinding& binding);
     void forget_body(SessionHandle body);
     void forget_place(std::uint32_t place);
-    BodyMotion believed(SessionLoop& loop, SessionHandle body, SampleSequence sample,
-                        const BodyMotion& received);
-    PoseStep step_to(SessionHandle body, SampleSequence sample, const BodyMotion& received) const;
     SessionHandle body_of(ObjectId object) const;
     void take(const ObjectStates& states, std::uint64_t packet, SessionLoop& loop);
     void take(const ForceSample& force);
@@ -171,6 +168,13 @@ private:
     void derive_targets(SessionLoop& loop, bool only_without_past);
     double touched_doubt(SessionLoop& loop) const;
     DerivationInput derivation_input(const Truth& truth, const BodyMotion& then, const BodyMotion& now) const;
+
+    // --- operator_belief.cpp
+    BodyMotion believed(SessionLoop& loop, SessionHandle body, SampleSequence sample,
+                        const BodyMotion& received);
+    Pose on_joints(const SessionLoop& loop, SessionHandle body, const Pose& seen) const;
+    void note_forbidden(const SessionLoop& loop, SessionHandle body, const Pose& seen);
+    PoseStep step_to(SessionHandle body, SampleSequence sample, const BodyMotion& received) const;
 
     // --- operator_learning.cpp
     void learn(SessionLoop& loop);

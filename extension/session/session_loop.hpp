@@ -157,6 +157,8 @@ public:
     // Where physics has the body after the last step.
     BodyMotion motion(SessionHandle handle);
     bool asleep(SessionHandle handle);
+    // Nearest to `pose` that the joints of the body to what does not move allow.
+    Pose on_joints(SessionHandle handle, const Pose& pose) const;
     bool touching(SessionHandle first, SessionHandle second) const;  // each other, in the last step
     void set_factors(SessionHandle handle, const BodyFactors& factors);
     // What acts on a body beyond this loop's physics, in every tick until all are taken away.

@@ -15,6 +15,10 @@ BodyMotion SessionLoop::motion(SessionHandle handle) {
     return physics_.state(bodies_[handle].id);
 }
 
+Pose SessionLoop::on_joints(SessionHandle handle, const Pose& pose) const {
+    return physics_.on_joints(bodies_[handle].id, pose);
+}
+
 bool SessionLoop::asleep(SessionHandle handle) {
     return !physics_.awake(bodies_[handle].id);
 }

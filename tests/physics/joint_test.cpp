@@ -285,6 +285,47 @@ TEST(Joint, RefusesWhatCannotBeJoined) {
     EXPECT_FALSE(world.add_joint({}, id, BodyId{12345}).valid());
 }
 
+// A pose that is seen roughly, led to where the hinge can be: the anchor is held, the axes are one.
+TEST(Joint, APoseIsLedOntoAHinge) {
+    Door door(JointRange{-1.0, 1.0});
+    const Quat open = glm::angleAxis(0.4, Vec3(0.0, 1.0, 0.0));
+    const Pose seen{open * Vec3(0.4, 0.0, 0.0) + Vec3(0.003, 1.002, -0.001),
+                    glm::angleAxis(0.02, glm::normalize(Vec3(1.0, 0.0, 1.0))) * open};
+    const Pose held = door.world.on_joints(door.id, seen);
+    EXPECT_LT(glm::length(to_parent(held, {-0.4, 0.0, 0.0}) - Vec3(0.0, 1.0, 0.0)), 1e-6);
+    EXPECT_LT(glm::length(held.rotation * Vec3(0.0, 1.0, 0.0) - Vec3(0.0, 1.0, 0.0)), 1e-6);
+    EXPECT_NEAR(heading(held), 0.4, 1e-3);
+    const Pose again = door.world.on_joints(door.id, held);
+    EXPECT_LT(glm::length(again.position - held.position), 1e-6);
+    const Pose beyond{Vec3(0.0), glm::angleAxis(1.5, Vec3(0.0, 1.0, 0.0))};
+    EXPECT_NEAR(heading(door.world.on_joints(door.id, beyond)), 1.0, 1e-6) << "its limit";
+}
+
+TEST(Joint, APoseIsLedOntoASliderAndAPin) {
+    PhysicsWorld world(weightless());
+    const BodyId sliding = add(world, ball(0.05, {0.2, 0.0, 0.0}, 1.0));
+    const BodyId pinned = add(world, ball(0.05, {0.0, 0.0, 0.5}, 1.0));
+    const BodyId loose = add(world, ball(0.05, {0.0, 0.0, 1.0}, 1.0));
+    BodyDescription still = ball(0.05, {0.0, 0.0, 2.0}, 1.0);
+    still.motion = Motion::Static;
+    const BodyId wall = add(world, still);
+    JointDescription slider{JointKind::Slider, {{0.0, 0.0, 0.0}, upright}};
+    slider.linear[0] = {-0.1, 0.1};
+    world.add_joint(slider, BodyId{}, sliding);
+    world.add_joint({JointKind::Pin, {{0.0, 0.0, 0.4}, upright}}, pinned, wall);
+    const Quat turned = glm::angleAxis(0.1, Vec3(0.0, 0.0, 1.0));
+    const Pose slid = world.on_joints(sliding, {{0.25, 0.01, -0.02}, turned});
+    EXPECT_NEAR(slid.position.x, 0.25, 2e-3) << "the frame slides, 0.2 m from where the body turns back";
+    EXPECT_LT(glm::length(Vec3(0.0, slid.position.y, slid.position.z)), 1e-6);
+    EXPECT_NEAR(slid.rotation.w, 1.0, 1e-12);
+    EXPECT_NEAR(world.on_joints(sliding, {{0.5, 0.0, 0.0}, upright}).position.x, 0.3, 1e-6);
+    const Pose hung = world.on_joints(pinned, {{0.01, 0.0, 0.5}, turned});
+    EXPECT_LT(glm::length(to_parent(hung, {0.0, 0.0, -0.1}) - Vec3(0.0, 0.0, 0.4)), 1e-6);
+    EXPECT_EQ(hung.rotation, turned) << "it turns as it likes";
+    const Pose anywhere{{0.3, 0.2, 0.1}, turned};
+    EXPECT_EQ(world.on_joints(loose, anywhere).position, anywhere.position);
+}
+
 TEST(Joint, SaysWhatIsWrong) {
     JointDescription joint;
     EXPECT_EQ(wrong_in(joint), "");

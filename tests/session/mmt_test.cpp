@@ -332,6 +332,19 @@ TEST(Mmt, PlacesThatAreSeenRoughlyAreNotFelt) {
     EXPECT_LT(figures.at("force_error_mean_N"), 0.1) << "as far as it is known, chance is not followed";
 }
 
+// A pose that no hinge allows would be torn back by the joint, and the box would begin to turn.
+TEST(Mmt, AHingeThatIsSeenRoughlyIsNotTornAway) {
+    TeleopScene hinged = scene(true);
+    hinged.hinges.push_back({1, {0.0, 0.075, 0.1}, {0.0, 1.0, 0.0}});
+    TeleopCase rough = wrong_box(100.0);
+    rough.pose_noise = 1e-3;
+    const TeleopFigures figures = run_teleop(hinged, rough);
+    rough.settings.correction = Correction::none;
+    const TeleopFigures never = run_teleop(hinged, rough);
+    EXPECT_LT(figures.at("force_error_mean_N"), 0.6 * never.at("force_error_mean_N"));
+    EXPECT_LT(figures.at("box_position_error_max_mm"), 6.0);
+}
+
 // The path touches the box from 2 s to 3 s of its turn.
 TeleopCase wrong_box_far_away(double milliseconds, double history) {
     TeleopCase made = wrong_box(milliseconds);

@@ -36,6 +36,12 @@ Quat turn_of(const Vec3& vector) {
     return angle > 0.0 ? glm::angleAxis(angle, vector / angle) : Quat(1.0, 0.0, 0.0, 0.0);
 }
 
+// Neither the step nor what it leaves open is more than a deviation that counts as none.
+bool is_still(const PoseFilterSettings& settings, const PoseStep& step) {
+    return glm::length(step.way) + step.open_way <= settings.place &&
+           glm::length(turn_vector(step.turn)) + step.open_turn <= settings.turn;
+}
+
 }  // namespace
 
 void Chance::note(const Vec3& e, const Vec3& before, bool before_known, double left_open, double states) {
@@ -75,10 +81,11 @@ void RoughVector::note(const PoseFilterSettings& settings, const Vec3& e, double
     before_ = e;
 }
 
-// Until it is known how much chance there is, what has been seen so far counts, on average.
-Vec3 RoughVector::believed(const PoseFilterSettings& settings, const Chance& chance) {
+// Until it is known how much chance there is, what has been seen so far counts, on average. A still body has
+// time to wait.
+Vec3 RoughVector::believed(const PoseFilterSettings& settings, const Chance& chance, bool still) {
     if (chance.count < states_to_tell) {
-        return seeing_.off;
+        return still ? trusting_.off : seeing_.off;
     }
     const double most = square(settings.contradicted) * chance.variance_at_most();
     const double apart = seeing_.gain - trusting_.gain;  // variance of their difference
@@ -100,15 +107,15 @@ double RoughVector::doubt(double none, const Chance& others) const {
     return variance <= square(none) ? 0.0 : 3.0 * gain * variance;
 }
 
-Vec3 RoughVector::begin(const PoseFilterSettings& settings, double none, const Off& off,
+Vec3 RoughVector::begin(const PoseFilterSettings& settings, double none, const Off& off, bool still,
                         const Chance& others) {
     trusting_.off = off.trusting;
     const Chance chance = together(chance_, others);
-    return chance.variance() <= square(none) ? Vec3(0.0) : believed(settings, chance);
+    return chance.variance() <= square(none) ? Vec3(0.0) : believed(settings, chance, still);
 }
 
 Vec3 RoughVector::see(const PoseFilterSettings& settings, double none, const Vec3& e, const Off& off,
-                      double open, Chance& others) {
+                      double open, bool still, Chance& others) {
     const Chance known = together(chance_, others);
     const double usual = 2.0 * known.variance_at_most() + square(open) / 3.0 + square(none);  // of an axis
     const bool jumped = known.count >= states_to_tell && square(e) > square(settings.contradicted) * usual;
@@ -137,7 +144,17 @@ Vec3 RoughVector::see(const PoseFilterSettings& settings, double none, const Vec
         belief->gain = before / (before + 1.0);
         belief->off *= 1.0 - belief->gain;
     }
-    return honest ? Vec3(0.0) : believed(settings, chance);
+    return honest ? Vec3(0.0) : believed(settings, chance, still);
+}
+
+void FarEyes::note_forbidden(const PoseFilterSettings& settings, const Pose& seen, const Pose& allowed) {
+    const auto note = [&settings](Chance& chance, const Vec3& n) {
+        if (chance.count < states_to_tell) {
+            chance.note(std::sqrt(2.0) * n, -std::sqrt(0.5) * n, true, 0.0, settings.states);
+        }
+    };
+    note(place, seen.position - allowed.position);
+    note(turn, turn_vector(seen.rotation * glm::conjugate(allowed.rotation)));
 }
 
 Pose PoseFilter::filter(const PoseFilterSettings& settings, const Pose& seen, const Pose& model,
@@ -152,18 +169,19 @@ Pose PoseFilter::filter(const PoseFilterSettings& settings, const Pose& seen, co
         return Pose{seen.position + place, glm::normalize(turn_of(turn) * seen.rotation)};
     };
     Vec3 place(0.0), turn(0.0);
+    const bool still = is_still(settings, step);
     if (!known_) {
         known_ = true;
-        place =
-            place_.begin(settings, settings.place, {model.position - seen.position, Vec3(0.0)}, eyes.place);
-        turn = turn_.begin(settings, settings.turn, {turned_off(model), Vec3(0.0)}, eyes.turn);
+        place = place_.begin(settings, settings.place, {model.position - seen.position, Vec3(0.0)}, still,
+                             eyes.place);
+        turn = turn_.begin(settings, settings.turn, {turned_off(model), Vec3(0.0)}, still, eyes.turn);
     } else {
         const Pose led = moved(seen_), trusting = moved(trusting_), seeing = moved(seeing_);
         place = place_.see(settings, settings.place, seen.position - led.position,
                            {trusting.position - seen.position, seeing.position - seen.position},
-                           step.open_way, eyes.place);
+                           step.open_way, still, eyes.place);
         turn = turn_.see(settings, settings.turn, -turned_off(led),
-                         {turned_off(trusting), turned_off(seeing)}, step.open_turn, eyes.turn);
+                         {turned_off(trusting), turned_off(seeing)}, step.open_turn, still, eyes.turn);
     }
     seen_ = seen;
     trusting_ = placed_off(place_.off().trusting, turn_.off().trusting);

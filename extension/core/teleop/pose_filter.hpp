@@ -18,6 +18,9 @@
 // no way leaves anything open: both gains fall like 1 / k, and the body is estimated at rest. Where a belief
 // and the model differ by less than the belief is sure of, the model keeps its place to the bit: a body that
 // stands would else be put some micrometers above its ground, and slide without friction until it has fallen.
+//
+// A pose that the body's joint does not allow tells of n_k with the first state. A still body then waits with
+// its model until R is known.
 #pragma once
 
 #include "core/math/pose.hpp"
@@ -65,12 +68,15 @@ public:
     };
 
     // What is to be believed of the first that is seen, off it.
-    Vec3 begin(const PoseFilterSettings& settings, double none, const Off& off, const Chance& others);
+    // `still`: see see().
+    Vec3 begin(const PoseFilterSettings& settings, double none, const Off& off, bool still,
+               const Chance& others);
 
     // `e`: how far off the place to which the step has led the last one; `open`: root mean square of what the
-    // step leaves open. What is to be believed, off the newest.
+    // step leaves open. What is to be believed, off the newest. A body that is `still` keeps the model's pose
+    // where there is chance and its amount is not known yet.
     Vec3 see(const PoseFilterSettings& settings, double none, const Vec3& e, const Off& off, double open,
-             Chance& others);
+             bool still, Chance& others);
 
     Off off() const { return {trusting_.off, seeing_.off}; }
 
@@ -84,7 +90,7 @@ private:
     };
 
     void note(const PoseFilterSettings& settings, const Vec3& e, double open, Chance& others);
-    Vec3 believed(const PoseFilterSettings& settings, const Chance& chance);
+    Vec3 believed(const PoseFilterSettings& settings, const Chance& chance, bool still);
 
     Belief trusting_, seeing_{Vec3(0.0), 1.0};
     Chance chance_;
@@ -96,6 +102,11 @@ private:
 // What all bodies have taught about the far side's eyes.
 struct FarEyes {
     Chance place, turn;
+
+    // A pose is `seen` that no honest far side has, and `allowed` is the nearest one that it may have. The
+    // difference is an n_k by itself, of the directions that are not allowed: it counts as e_k of 2 R, until
+    // enough states have told.
+    void note_forbidden(const PoseFilterSettings& settings, const Pose& seen, const Pose& allowed);
 };
 
 class PoseFilter {

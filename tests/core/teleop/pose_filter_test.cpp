@@ -64,6 +64,51 @@ TEST(PoseFilter, ACorrectionThatChanceExplainsIsNotMade) {
     }
 }
 
+// Another body's joint shows the chance before any body has had a second state.
+TEST(PoseFilter, AStillBodyKeepsTheModelAfterAPoseThatNoJointAllows) {
+    const Pose hinged = at({1.0, 0.0, 0.0});
+    const Pose model = at({0.1, 0.2, 0.3}, turn_by({0.3, 0.0, 0.1}, 1.0));
+    double warned_off = 0.0, off = 0.0;
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+        PoseFilter warned, unwarned;
+        FarEyes warned_eyes, eyes;
+        RoughEyes rough(1e-3, 5e-3, seed);
+        warned_eyes.note_forbidden({}, rough.see(hinged), hinged);
+        for (int i = 0; i < 8; ++i) {
+            const Pose seen = rough.see(model);
+            const Pose believed = warned.filter({}, seen, model, {}, warned_eyes);
+            warned_off += glm::distance(believed.position, model.position);
+            off += glm::distance(unwarned.filter({}, seen, model, {}, eyes).position, model.position);
+            if (i == 0) {
+                EXPECT_LT(glm::distance(believed.position, model.position), 1e-12) << seed;
+                EXPECT_LT(angle_between(believed.rotation, model.rotation), 1e-9) << seed;
+            }
+        }
+    }
+    EXPECT_LT(warned_off, 0.5 * off);
+}
+
+TEST(PoseFilter, PosesThatNoJointAllowsTellTheChance) {
+    FarEyes eyes;
+    RoughEyes rough(1e-3, 5e-3, 3);
+    const Pose hinged = at({1.0, 0.0, 0.0});
+    for (int i = 0; i < 100; ++i) {
+        eyes.note_forbidden({}, rough.see(hinged), hinged);
+    }
+    EXPECT_NEAR(std::sqrt(eyes.place.variance()), 1e-3, 5e-4);
+    EXPECT_NEAR(std::sqrt(eyes.turn.variance()), 5e-3, 2.5e-3);
+    EXPECT_EQ(eyes.place.count, 8.0) << "what bodies teach themselves counts from then on";
+}
+
+TEST(PoseFilter, AStillBodyOfAnHonestFarSideIsBelievedAtOnce) {
+    PoseFilter filter;
+    FarEyes eyes;
+    const Pose there = at({0.2, 0.0, 0.0}, turn_by({0.3, 0.0, 0.1}, 1.0));
+    const Pose believed = filter.filter({}, there, at(Vec3(0.0)), {}, eyes);
+    EXPECT_EQ(believed.position, there.position);
+    EXPECT_EQ(believed.rotation, there.rotation);
+}
+
 // What the way leaves open makes the belief follow what is seen by a hair, each time: no reason to put a body
 // off the ground that it stands on.
 TEST(PoseFilter, AModelThatIsNearEnoughStaysAsItIs) {
