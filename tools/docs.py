@@ -30,8 +30,8 @@ CONTENTS = {
         "stress", "proof",
     ],
     "Internals": [
-        "development", "architecture", "proxy_steps", "tolerances", "notebook/proxy", "notebook/tool", "notebook/teleoperation", "notebook/soft", "notebook/physics", "roadmap",
-        "changes",
+        "development", "architecture", "proxy_steps", "tolerances", "notebook/proxy", "notebook/tool", "notebook/teleoperation", "notebook/soft", "notebook/physics",
+        "notebook/effects", "roadmap", "changes",
     ],
     "Project": ["CONTRIBUTING", "SECURITY", "CODE_OF_CONDUCT"],
 }  # fmt: skip
