@@ -354,7 +354,14 @@ void PhysicsWorld::apply_spring_force(BodyId id, const SpringForce& spring) {
         return;
     const LoopMemoryScope scope(impl_->memory);
     impl_->wake(*body);
-    impl_->pushes[impl_->push_count++].set(*body, spring);
+    SpringPush& push = impl_->pushes[impl_->push_count++];
+    push.set(*body, spring);
+    for (SpringPush& other : std::span(impl_->pushes).first(impl_->push_count - 1)) {
+        if (other.acts_on(*body)) {
+            other.add_beside(push);
+            push.add_beside(other);
+        }
+    }
 }
 
 void PhysicsWorld::apply_hand_force(BodyId id, const Vec3& force, const Vec3& world_point) {

@@ -9,6 +9,7 @@
 #include <algorithm>
 
 #include "physics/jolt_units.hpp"
+#include "physics/least_exact_mass.hpp"
 #include "physics/limits.hpp"
 
 namespace tactus {
@@ -60,6 +61,8 @@ void SpringPush::set(JPH::Body& body, const SpringForce& spring) {
     push_.first_velocity = along(body.GetPointVelocity(point));
     push_.stiffness = static_cast<float>(limits::cut(spring.stiffness, limits::stiffest));
     push_.damping = static_cast<float>(limits::cut(spring.damping, limits::stiffest));
+    push_.all_stiffness = push_.stiffness;
+    push_.all_damping = push_.damping;
     twist_.set(body, spring.twist);
 }
 
@@ -78,9 +81,11 @@ void SpringPush::SetupVelocityConstraint(float seconds) {
     impulse_along_ = impulse_.Dot(push_.direction);
     push_.elapsed += seconds;
 
-    const float response = inverse_mass_along_ * seconds * (push_.damping + push_.stiffness * seconds);
-    is_light_ = response > light;
-    is_stable_ = response <= explicit_limit;
+    const auto response = [&](float stiffness, float damping) {
+        return inverse_mass_along_ * static_cast<float>(least_exact_mass(stiffness, damping, seconds));
+    };
+    is_light_ = response(push_.stiffness, push_.damping) > light;
+    is_stable_ = response(push_.all_stiffness, push_.all_damping) <= explicit_limit;
     held_ = is_light_ ? held_iterations : 0;
     SetNumVelocityStepsOverride(is_light_ ? light_iterations : 0);
     gives_ = false;

@@ -19,8 +19,8 @@
 //     s = 1 - m (v - v0) . n / (l . n)        (l: the impulse given so far, m: the mass felt at the point)
 //
 // 0 for a free body, and 1 for one that is held. A free body sees F0 alone, so it gets the impulse that the
-// hand feels, and keeps its energy. That is semi-implicit Euler, stable while k dt^2 + 2 c dt < 4 m. Lighter
-// bodies, m < dt (k dt + c) / 2, have s = 1.
+// hand feels, and keeps its energy. That is semi-implicit Euler, stable while k dt^2 + 2 c dt < 4 m, with k
+// and c of all springs on the body. Lighter bodies, m < dt (k dt + c) / 2, have s = 1.
 //
 // A sliding fingertip: the same along the direction n of F0 alone. In both cases F . n >= 0.
 //
@@ -47,6 +47,12 @@ public:
     void take(const SpringPush& other) {
         push_ = other.push_;
         twist_ = other.twist_;
+    }
+
+    // Another one presses the same body in the next step: each is told of the other once.
+    void add_beside(const SpringPush& other) {
+        push_.all_stiffness += other.push_.stiffness;
+        push_.all_damping += other.push_.damping;
     }
 
     bool acts_on(const JPH::Body& body) const { return push_.body == &body; }
@@ -101,10 +107,12 @@ private:
         JPH::Vec3 first_velocity = JPH::Vec3::sZero();  // v0
         float stiffness = 0.0f;                         // k
         float damping = 0.0f;                           // c
-        float elapsed = 0.0f;                           // since the step began (unit: seconds)
-        float given = 0.0f;                             // impulse along n of the sub-steps before
-        JPH::Vec3 impulse = JPH::Vec3::sZero();         // of those, all of it
-        JPH::Vec3 turn = JPH::Vec3::sZero();            // and angular, about the centre of mass
+        float all_stiffness = 0.0f;                     // of all springs on the body, this one among them
+        float all_damping = 0.0f;
+        float elapsed = 0.0f;                    // since the step began (unit: seconds)
+        float given = 0.0f;                      // impulse along n of the sub-steps before
+        JPH::Vec3 impulse = JPH::Vec3::sZero();  // of those, all of it
+        JPH::Vec3 turn = JPH::Vec3::sZero();     // and angular, about the centre of mass
     };
     Push push_;
     TwistHold twist_;

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <vector>
 
+#include "physics/least_exact_mass.hpp"
 #include "session_rig.hpp"
 
 namespace tactus::coupling_test {
@@ -311,6 +312,52 @@ TEST(Coupling, AFreeBodyOfAGramGetsTheImpulseThatTheHandFeels) {
         EXPECT_NEAR(impulse_share(0.001, 1000.0, 0.0, phase), 1.0, 0.01) << phase;
         EXPECT_NEAR(impulse_share(0.001, 1500.0, 0.0, phase), 1.0, 0.02) << phase;
         EXPECT_NEAR(impulse_share(0.01, 500.0, 3.0, phase), 1.0, 0.01) << phase;
+    }
+}
+
+TEST(Coupling, FromTheLeastExactMassOnAFreeBodyGetsThatImpulseWithinAPercent) {
+    for (const double stiffness : {200.0, 900.0, 3000.0}) {
+        for (const double damping : {0.0, 0.7, 10.0}) {
+            const double least = least_exact_mass(stiffness, damping, seconds_a_tick);
+            for (const double phase : {0.1, 0.35, 0.85}) {
+                SCOPED_TRACE(::testing::Message() << stiffness << ' ' << damping << ' ' << phase);
+                EXPECT_NEAR(impulse_share(least, stiffness, damping, phase), 1.0, 0.01);
+                EXPECT_NEAR(impulse_share(0.51 * least, stiffness, damping, phase), 1.0, 0.02);
+            }
+        }
+    }
+}
+
+// No faster than an elastic blow of the hand's speed.
+TEST(Coupling, SeveralFingersGiveALightBodyNoMoreThanOne) {
+    constexpr double speed = 0.1;
+    for (const int fingers : {2, 3, 4}) {
+        for (const double damping : {0.0, 3.0}) {
+            for (const double share : {0.3, 0.6, 1.0, 1.5, 2.5}) {
+                SCOPED_TRACE(::testing::Message() << fingers << ' ' << damping << ' ' << share);
+                Table table(fingers);
+                table.session->set_gravity(Vec3(0.0));
+                const double mass = share * least_exact_mass(1000.0, damping, seconds_a_tick);
+                BodyAddition addition = cube(0.06, {0.0, 1.0, 0.0}, mass);
+                addition.touch_material = {1000.0, damping, 0.3, 0.3};
+                const SessionHandle box = table.add(addition);
+                for (int i = 0; i < fingers; ++i) {
+                    table.finger[static_cast<std::size_t>(i)]->device.position = {
+                        -0.04, i % 2 ? 0.985 : 1.015, i / 2 ? 0.015 : -0.015};
+                }
+                table.tick();
+                for (int i = 0; i < 200; ++i) {
+                    for (const auto& one : table.finger) {
+                        one->go({speed * seconds_a_tick, 0.0, 0.0});
+                    }
+                    table.tick();
+                }
+                const SessionSnapshot& snapshot = table.session->snapshot();
+                const BodyState* state = state_of(snapshot.bodies, snapshot.body_count, box);
+                ASSERT_NE(state, nullptr);
+                EXPECT_LT(glm::length(state->linear_velocity), 2.3 * speed);
+            }
+        }
     }
 }
 
