@@ -11,6 +11,7 @@
 #include "nodes/haptic_material.hpp"
 #include "nodes/haptic_mesh.hpp"
 #include "nodes/haptic_soft_body.hpp"
+#include "nodes/haptic_world.hpp"
 #include "nodes/passed_over.hpp"
 #include "nodes/scene_warnings.hpp"
 
@@ -46,6 +47,19 @@ void take(ShapeReading reading, const Object* owner, BodyForm& form, std::vector
 
 void take_problem_of(const HapticMaterial* material, BodyForm& form) {
     if (std::string problem = material != nullptr ? material->problem() : ""; !problem.empty()) {
+        form.problems.push_back(std::move(problem));
+    }
+}
+
+// Of one that a hand can push as the haptic world moves it.
+void take_problem_of_mass(const RigidBody3D& body, const HapticMaterial* material, double mass,
+                          BodyForm& form) {
+    const HapticWorld* world = HapticWorld::above(&body);
+    if (world == nullptr || body.is_freeze_enabled()) {
+        return;
+    }
+    const TouchMaterial touch = material != nullptr ? material->touch() : world->body_defaults().touch;
+    if (std::string problem = problem_of_mass(mass, touch, world->tick_seconds()); !problem.empty()) {
         form.problems.push_back(std::move(problem));
     }
 }
@@ -121,6 +135,11 @@ BodyForm read_form(CollisionObject3D& body, const Mat3& body_scale, bool engine_
     for (const Ref<HapticMaterial>& surface :
          mesh != nullptr ? mesh->surface_materials() : std::vector<Ref<HapticMaterial>>()) {
         take_problem_of(surface.ptr(), form);
+    }
+    if (const auto* rigid = Object::cast_to<RigidBody3D>(&body); rigid != nullptr && !engine_moves) {
+        const bool is_meshs = mesh != nullptr && mesh->is_giving_mass();
+        take_problem_of_mass(*rigid, material, is_meshs ? mesh->library_mass(body_scale) : rigid->get_mass(),
+                             form);
     }
     const std::size_t besides = form.problems.size();  // what is said of its shapes follows
     for_each_shape(body, [&](const Ref<Shape3D>& shape, const Transform3D& place, Object* owner) {

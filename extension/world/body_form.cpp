@@ -1,6 +1,7 @@
 #include "world/body_form.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <utility>
@@ -9,6 +10,7 @@
 #include "core/mesh/convex_hull.hpp"
 #include "core/mesh/smooth_normals.hpp"
 #include "core/tree/triangle_tree.hpp"
+#include "physics/least_exact_mass.hpp"
 #include "physics/solid_properties.hpp"
 #include "session/soft_slot.hpp"
 #include "world/same_shapes.hpp"
@@ -170,6 +172,20 @@ std::vector<std::string> problems_of(const BodyForm& form) {
         }
     }
     return problems;
+}
+
+std::string problem_of_mass(double mass, const TouchMaterial& touch, double tick_seconds) {
+    const double stiffness = touch.stiffness * std::max(1.0, touch.stiffening);
+    const double least = least_exact_mass(stiffness, touch.damping, tick_seconds);
+    if (mass >= least) {
+        return "";
+    }
+    char text[160];
+    std::snprintf(text, sizeof text,
+                  "its mass of %.3g kg is too small for the stiffness and damping of its surface: a pushed "
+                  "body gets less than the hand feels; make it at least %.3g kg",
+                  mass, least);
+    return text;
 }
 
 std::size_t triangle_count(const BodyForm& form) {

@@ -38,6 +38,9 @@ bool same_form(const BodyForm& a, const BodyForm& b);
 std::string problem_of(const MeshDraft& draft);  // empty where the triangles are sound
 // All there are, those of the triangles, too.
 std::vector<std::string> problems_of(const BodyForm& form);
+// Why a free body of this mass gets another impulse than its hand feels, and what to do; empty where it gets
+// the same within 1 %.
+std::string problem_of_mass(double mass, const TouchMaterial& touch, double tick_seconds);
 // Triangles to build trees over, about.
 std::size_t triangle_count(const BodyForm& form);
 

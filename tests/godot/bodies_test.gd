@@ -268,6 +268,30 @@ func test_a_scaled_library_mesh_weighs_what_its_size_says() -> void:
 	check_near(body.linear_velocity.x, 0.5, 3e-3, "speed of 4.8 kg")
 
 
+func test_a_body_that_is_too_light_for_its_surface_says_so() -> void:
+	var world := add_world()
+	for mass: float in [0.003, 0.005]:
+		var ball := RigidBody3D.new()
+		ball.name = "Feather" if mass < 0.004 else "Pebble"
+		ball.mass = mass
+		ball.position.x = 100.0 * mass
+		var material := HapticMaterial.new()
+		material.stiffness = 1000.0
+		material.damping = 3.0
+		ball.physics_material_override = material
+		var shape := CollisionShape3D.new()
+		shape.shape = SphereShape3D.new()
+		shape.shape.radius = 0.01
+		ball.add_child(shape)
+		world.add_child(ball)
+	expect_error("its mass of 0.003 kg is too small")
+	world.advance(0.1)
+	var problems := "\n".join(world.get_problems())
+	check(problems.contains("Feather") and problems.contains("at least 0.004 kg"), problems)
+	check(not problems.contains("Pebble"), problems)
+	check("\n".join(world._list_warnings()).contains("'Feather'"), "no configuration warning")
+
+
 func test_a_mesh_without_a_mass_in_the_library_says_so() -> void:
 	var mesh := HapticMesh.new()
 	mesh.use_library_mass = true

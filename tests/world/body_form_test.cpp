@@ -54,6 +54,19 @@ TEST(BodyForm, TextureCoordinatesStayWithTheirCornersHoweverTheMeshIsScaled) {
     }
 }
 
+TEST(BodyForm, AMassThatIsTooSmallForItsSurfaceIsNamedWithTheLeastOne) {
+    TouchMaterial touch;
+    touch.stiffness = 1000.0;
+    touch.damping = 3.0;
+    EXPECT_EQ(problem_of_mass(0.00401, touch, 1e-3), "");
+    EXPECT_EQ(problem_of_mass(0.001, touch, 1e-3),
+              "its mass of 0.001 kg is too small for the stiffness and damping of its surface: a pushed body "
+              "gets less than the hand feels; make it at least 0.004 kg");
+    EXPECT_EQ(problem_of_mass(0.00201, touch, 0.5e-3), "");
+    touch.stiffening = 2.0;
+    EXPECT_NE(problem_of_mass(0.00401, touch, 1e-3), "");
+}
+
 TEST(BodyForm, WhatIsSaidOfOtherTrianglesIsLeftOut) {
     SurfaceMap map = map_of(sheet());
     map.uv.pop_back();
