@@ -54,7 +54,7 @@ def licence() -> str:
 
 def _folder(platform: Platform) -> Path:
     compiler = _run([platform.compiler, "--version"]).splitlines()[0]
-    key = cache.digest(compiler, *platform.flags, CRATE_SHA256, str(cache.root()))
+    key = cache.digest(compiler, *platform.flags, CRATE_SHA256, _sodium_flags())
     return cache.root() / f"cross-{platform.name}-{key}"
 
 
@@ -62,12 +62,17 @@ def _sodium_source() -> Path:
     return cache.root() / f"libsodium-{SODIUM}-source/libsodium"
 
 
+def _sodium_flags() -> str:
+    """Its assertions name files as in its own folder, and no folder of this machine."""
+    return f"CFLAGS=-O2 -ffile-prefix-map={_sodium_source()}=libsodium"
+
+
 def _build_sodium(platform: Platform, folder: Path) -> None:
     if not cache.is_done(_sodium_source().parent, CRATE_SHA256):
         crates.fetch(CRATE, CRATE_SHA256, "tools/cross/Cargo.toml", _sodium_source().parent)
     work = cache.emptied(folder / "work")
     configure = ["sh", _sodium_source() / "configure", f"--host={platform.triple}", f"--prefix={folder}"]
-    _run([*configure, "--disable-shared", "--with-pic", "--disable-ssp", "CFLAGS=-O2"], work)
+    _run([*configure, "--disable-shared", "--with-pic", "--disable-ssp", _sodium_flags()], work)
     _run(["make", "install"], work)
     subprocess.run(["rm", "-r", work], check=True)
 
