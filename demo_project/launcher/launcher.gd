@@ -54,7 +54,7 @@ var _rows := {}
 
 
 func _ready() -> void:
-	_launch.chosen.output = ("user://bundles/" + Time.get_datetime_string_from_system(true).replace(":", ""))
+	_launch.chosen.output = "user://bundles/" + Time.get_datetime_string_from_system(true).replace(":", "")
 	for row: Array in ROWS:
 		_add_row(row[0], row[1], row[2])
 	for words: String in [SCENARIO] + STUDIES.keys():
@@ -222,4 +222,4 @@ func _play_again() -> void:
 	await get_tree().process_frame
 	await get_tree().process_frame
 	var same := Replay.run(["--replay=" + bundle]) == Replay.SAME
-	_said.text = ("The results are bit-exact" if same else "It was not the same: the output says where")
+	_said.text = "The results are bit-exact" if same else "It was not the same: the output says where"
