@@ -1,9 +1,9 @@
 """Answers as Haply's service does, for tests: states of one Inverse3 and its grip, a thousand times a second, one more
 only after the last has been answered with a force.
 
-    haply_service.py [silent|nonsense|uncalibrated|hasty]
+    haply_service.py [silent|nonsense|uncalibrated|hasty|quoted]
 
-A hasty one that has an answer in advance tells two states at once. Prints its port, then each force that is another one, as
+A hasty one that has an answer in advance tells two states at once, a quoted one gives its device a name with a quotation mark. Prints its port, then each force that is another one, as
 "x y z" and the number of the state that it answers, "waited" where no answer came and it told its state again, and "acknowledged" for a frame of the protocol's own.
 A line on stdin: "drop" closes the connection, "mad" makes nonsense of all it says from now on over this one, "lie FIELD
 MANNER" lets one field of its states lie; "lied NANOSECONDS", on the steady clock, says when the first of them was sent.
@@ -141,6 +141,8 @@ def serve(client: socket.socket, manner: str, lie: list[str]) -> None:
         is_told_again = False
         if manner != "silent" and lie[1:] != ["silent"]:
             told = state(manner != "uncalibrated")
+            if manner == "quoted":
+                told["inverse3"][0]["device_id"] = '04"8D'
             if manner == "hasty" and select.select([client], [], [], 0)[0] and (text := message(client)) is not None:
                 last = heard(force_of(text), last, states)
                 client.sendall(2 * frame(json.dumps(told)))

@@ -36,6 +36,14 @@ Quat rotation_of(const JsonValue& turn) {
 constexpr Nanoseconds first_state = 2'000'000'000;
 constexpr Nanoseconds look_again = 2'000'000;
 
+// A device's name is sent back with each force (unit: bytes).
+constexpr std::size_t longest_id = 64;
+
+bool can_be_sent_back(const std::string& id) {
+    return id.size() <= longest_id &&
+           std::ranges::none_of(id, [](unsigned char c) { return c < 0x20 || c == '"' || c == '\\'; });
+}
+
 // A state waits for the force that it leads to where the loop looks for it within that time, and writes that
 // force within another one. Both together with the period of the service are less than a force lives
 // (ForceLife).
@@ -75,6 +83,10 @@ std::string Inverse3Driver::choose(const JsonValue& state) {
     for (std::size_t i = 0; i < all.size(); ++i) {
         const std::string id = all[i]["device_id"].text();
         if (!wanted.empty() && id != wanted) {
+            continue;
+        }
+        if (!can_be_sent_back(id)) {
+            problem = "Haply's service gives a device a name that no command can carry: start Haply Hub anew";
             continue;
         }
         if (claim_.take("Inverse3 " + std::to_string(port_) + " " + id)) {
@@ -148,7 +160,7 @@ void Inverse3Driver::send(const Vec3& force) {
     const Vec3 theirs = to_device(force);
     char text[512];
     std::snprintf(text, sizeof text,
-                  "{\"session\":{},\"inverse3\":[{\"device_id\":\"%.32s\",\"commands\":{\"set_cursor_force\":"
+                  "{\"session\":{},\"inverse3\":[{\"device_id\":\"%s\",\"commands\":{\"set_cursor_force\":"
                   "{\"vector\":"
                   "{\"x\":%.6f,\"y\":%.6f,\"z\":%.6f},\"execute\":true}}}]}",
                   id_.c_str(), theirs.x, theirs.y, theirs.z);

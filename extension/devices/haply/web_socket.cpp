@@ -19,6 +19,9 @@ constexpr int callback_failed = -400;
 // A state of all its devices takes some kilobytes (unit: bytes).
 constexpr std::uint64_t longest_message = 1 << 20;
 constexpr std::size_t longest_answer = 4096;
+// Of what has come, in one receive(): a service that sends faster than it is read must not hold up the
+// thread that takes forces away (unit: bytes).
+constexpr std::size_t most_at_once = 1 << 16;
 constexpr Nanoseconds handshake_time = 1'000'000'000;
 constexpr Nanoseconds part_of_handshake = 10'000'000;
 
@@ -62,8 +65,11 @@ std::string WebSocket::open(std::uint16_t port, const std::atomic<bool>& stop) {
             socket.begun_.erase(0, size);
             return static_cast<Size>(size);
         }
-        const StreamSocket::Received got = socket.socket_.receive({into, room}, 0);
+        const StreamSocket::Received got =
+            socket.may_read_ > 0 ? socket.socket_.receive({into, std::min(room, socket.may_read_)}, 0)
+                                 : StreamSocket::Received{StreamSocket::State::nothing, 0};
         if (got.state == StreamSocket::State::done) {
+            socket.may_read_ -= got.bytes;
             return static_cast<Size>(got.bytes);
         }
         socket.wslay_.set_error(context,
@@ -149,6 +155,7 @@ void WebSocket::close() {
 
 int WebSocket::receive(std::string& text, Nanoseconds at_most) {
     arrivals_ = 0;
+    may_read_ = most_at_once;
     is_gone_ = is_gone_ || wslay_.receive(context_) != 0;
     if (arrivals_ == 0 && !is_gone_ && at_most > 0) {
         socket_.wait(at_most);

@@ -23,7 +23,8 @@ public:
     std::string open(std::uint16_t port, const std::atomic<bool>& stop);
     void close();
 
-    // The newest text that has come, waiting until then, and how many have come; the older ones are lost.
+    // The newest text that has come, waiting until then, and how many have come; the older ones are lost. Of
+    // what comes faster than that, the rest waits for the next call.
     int receive(std::string& text, Nanoseconds at_most);
     void send(const std::string& text);
     // An unsolicited pong (RFC 6455, 5.5.3), in place of an answer: it takes TCP's acknowledgment along. A
@@ -77,7 +78,8 @@ private:
     std::string begun_;  // that came behind the handshake
     std::string arrived_;
     std::uint32_t mask_ = 0x9e3779b9u;
-    int arrivals_ = 0;  // since receive() began
+    int arrivals_ = 0;          // since receive() began
+    std::size_t may_read_ = 0;  // until it ends (unit: bytes)
     bool is_gone_ = false;
 };
 

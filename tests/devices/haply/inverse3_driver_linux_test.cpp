@@ -332,10 +332,11 @@ TEST(Inverse3, SaysWhatIsMissing) {
     NEEDS_LIBRARIES();
     DriverDevice nobody(std::make_unique<Inverse3Driver>("", std::uint16_t{9}));
     EXPECT_TRUE(says(nobody, "Haply Hub"));
-    HaplyService service, silent("silent"), mad("nonsense"), fresh("uncalibrated");
+    HaplyService service, silent("silent"), mad("nonsense"), fresh("uncalibrated"), quoted("quoted");
     EXPECT_TRUE(says(*inverse3(service, "FFFF"), "no Inverse3 FFFF"));
     EXPECT_TRUE(says(*inverse3(silent), "says nothing"));
     EXPECT_TRUE(says(*inverse3(mad), "no Inverse3"));
+    EXPECT_TRUE(says(*inverse3(quoted), "a name that no command can carry"));
     const auto uncalibrated = inverse3(fresh);
     EXPECT_TRUE(says(*uncalibrated, "calibration dock"));
     EXPECT_FALSE(uncalibrated->read(0).connected);
