@@ -7,7 +7,9 @@ namespace tactus {
 
 namespace {
 
-constexpr int send_time = 100;  // (unit: milliseconds)
+// (unit: milliseconds)
+constexpr int send_time = 100;
+constexpr int connect_time = 50;
 
 int winsock() {
     static const int failed = [] {
@@ -20,6 +22,24 @@ int winsock() {
 bool ready(SOCKET handle, short events, int milliseconds) {
     WSAPOLLFD file{handle, events, 0};
     return WSAPoll(&file, 1, milliseconds) > 0;
+}
+
+// 0, or the error. Where nothing listens, Windows asks three times within two seconds before it says so; a
+// service of this machine that does not answer at once is too busy to be waited for.
+int connect_soon(SOCKET handle, const sockaddr_in& address) {
+    if (connect(handle, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) {
+        return 0;
+    }
+    if (const int error = WSAGetLastError(); error != WSAEWOULDBLOCK) {
+        return error;
+    }
+    if (!ready(handle, POLLWRNORM, connect_time)) {
+        return WSAETIMEDOUT;
+    }
+    int error = 0;
+    int size = sizeof error;
+    getsockopt(handle, SOL_SOCKET, SO_ERROR, reinterpret_cast<char*>(&error), &size);
+    return error;
 }
 
 }  // namespace
@@ -37,15 +57,14 @@ std::string StreamSocket::connect_here(std::uint16_t port) {
     address.sin_family = AF_INET;
     address.sin_port = htons(port);
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    if (connect(made, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
-        const std::string why = system_message(WSAGetLastError());
+    u_long without_waiting = 1;
+    ioctlsocket(made, FIONBIO, &without_waiting);
+    if (const int error = connect_soon(made, address); error != 0) {
         closesocket(made);
-        return why;
+        return system_message(error);
     }
     const char on = 1;
     setsockopt(made, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
-    u_long without_waiting = 1;
-    ioctlsocket(made, FIONBIO, &without_waiting);
     handle_ = static_cast<std::int64_t>(made);
     return {};
 }
