@@ -125,6 +125,9 @@ void SessionLoop::note_led() {
     }
     for (Led& one : led_) {
         one.state.motion = motion(one.state.handle);
+        one.state.way += one.state.motion.linear_velocity * seconds_;
+        one.state.turned += one.state.motion.angular_velocity * seconds_;
+        one.state.seconds += seconds_;
     }
 }
 

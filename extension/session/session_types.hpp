@@ -119,6 +119,10 @@ struct LedState {
     BodyMotion motion;
     Vec3 impulse{0.0};  // that hands have given it, in the world (unit: newton seconds)
     Vec3 turn{0.0};     // about its centre of mass (unit: newton meter seconds)
+    // Where its velocities alone have led it, without what it was moved and turned by (units: meters,
+    // radians).
+    Vec3 way{0.0}, turned{0.0};
+    double seconds = 0.0;  // in which they did
     // Of all corrections, what has been carried out: sums of BodyCorrection's by, turn, linear and angular.
     BodyCorrection corrected;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 namespace tactus {
 
@@ -23,10 +24,10 @@ Vec3 agreed(const Vec3& a, const Vec3& b, double least) {
     return both;
 }
 
-// Where the model is that has come as far as the engine's body. `lead`: see led_motion.hpp (unit: seconds).
-BodyMotion without_lead(const BodyMotion& body, double lead) {
-    return {shifted(body.pose, -lead * body.linear_velocity, turn_by(-lead * body.angular_velocity, 1.0)),
-            body.linear_velocity, body.angular_velocity};
+// A body whose velocity changes evenly from `begin` to `end`, in ticks, goes so much farther in `seconds`
+// than the model, which went by `way`.
+Vec3 beyond(const Vec3& begin, const Vec3& end, const Vec3& way, double seconds, double tick) {
+    return 0.5 * seconds * (begin + end) + 0.5 * tick * (end - begin) - way;
 }
 
 void correct(BodyCorrection& correction, const BodyMotion& truth, const BodyMotion& model) {
@@ -51,6 +52,28 @@ void LedMotion::note_unknown(const BodyCorrection& correction, double seconds) {
     pull_before_ = std::exchange(pull_, agreed(unknown, std::exchange(unknown_, unknown), least_pull));
     spin_up_before_ = std::exchange(
         spin_up_, agreed(unknown_spin, std::exchange(unknown_spin_, unknown_spin), least_spin_up));
+}
+
+// Where the model is that has come as far as the engine's body.
+BodyMotion LedMotion::without_lead(const BodyMotion& body, double lead) const {
+    const Vec3 by = lead * body.linear_velocity + ahead_;
+    const Vec3 turn = lead * body.angular_velocity + ahead_turn_;
+    return {shifted(body.pose, -by, turn_by(-turn, 1.0)), body.linear_velocity, body.angular_velocity};
+}
+
+void LedMotion::note_lead(const LedState& model, double seconds, double tick) {
+    constexpr double kept = 0.98;  // from one frame to the next
+    const double time = model.seconds - before_.seconds;
+    const double late = kept * late_;
+    late_ = std::clamp(late + seconds - time, -seconds, seconds);
+    const double compared = time + late_ - late;
+    const BodyMotion &then = before_.motion, &now = model.motion;
+    const BodyCorrection &sent = model.corrected, &had = before_.corrected;
+    const Vec3 linear = then.linear_velocity + sent.linear - had.linear;
+    const Vec3 angular = then.angular_velocity + sent.angular - had.angular;
+    ahead_ = kept * ahead_ + beyond(linear, now.linear_velocity, model.way - before_.way, compared, tick);
+    ahead_turn_ = kept * ahead_turn_ +
+                  beyond(angular, now.angular_velocity, model.turned - before_.turned, compared, tick);
 }
 
 LedMotion::Frame LedMotion::frame(const BodyMotion& engines, const LedState& model, double seconds,
@@ -81,6 +104,7 @@ LedMotion::Frame LedMotion::frame(const BodyMotion& engines, const LedState& mod
         sent_.turn += correction.turn;
         sent_.linear += correction.linear;
         sent_.angular += correction.angular;
+        note_lead(model, seconds, tick);
     }
     before_ = model;
     return frame;

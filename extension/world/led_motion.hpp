@@ -11,6 +11,11 @@
 // An engine changes the velocity first and then goes with the new one for the whole frame of T seconds, where
 // the model, in ticks of t, gains it little by little. So the engine's body is ahead of the model's by
 // (T - t) / 2 times its velocity, which is no error of the model: that much of the place counts as its own.
+// That is so where a force is even within a frame, and a frame comes when its time has passed. Between two
+// stiff fingers a light body swings within a few frames; frames come late and in bursts. So the place also
+// counts by which a body whose velocity changes evenly between two frames goes farther in T than the model
+// went in between. The sum of this fades. The game's time may be one frame ahead of the model's or behind it;
+// where it is more, it goes at another rate, and the difference counts no more.
 //
 // A right model has e = 0, however hard a hand presses and whatever rubs against the body. The model is put
 // right by e. The part of e in the velocity divided by the frame is the acceleration that the model did not
@@ -45,12 +50,16 @@ public:
 private:
     BodyMotion expected() const;
     void note_unknown(const BodyCorrection& correction, double seconds);
+    void note_lead(const LedState& model, double seconds, double tick);
+    BodyMotion without_lead(const BodyMotion& body, double lead) const;
 
     bool is_known_ = false;
-    LedState before_;       // one frame ago
-    BodyCorrection sent_;   // sums
-    Vec3 given_{0.0};       // to the engine's body so far
-    Vec3 given_turn_{0.0};  // angular
+    LedState before_;                    // one frame ago
+    BodyCorrection sent_;                // sums
+    Vec3 ahead_{0.0}, ahead_turn_{0.0};  // the engine's body is, besides the lead of an even force
+    double late_ = 0.0;                  // the engine's time is so far ahead of the model's (unit: seconds)
+    Vec3 given_{0.0};                    // to the engine's body so far
+    Vec3 given_turn_{0.0};               // angular
     Vec3 pull_{0.0},
         pull_before_{0.0};  // the model has been accelerated by since the last frame, the one before
     Vec3 spin_up_{0.0}, spin_up_before_{0.0};

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "physics/physics_world.hpp"
@@ -237,6 +238,58 @@ TEST(LedMotion, AForceThatChangesWithinAFrameIsNoErrorOfTheModel) {
     }
 }
 
+// A body between springs, as between two stiff fingers: a model of 1 kHz and an engine that has its impulses.
+// `ticks`: of the model after each frame, over and over. `pulse`: radians per second.
+// Returns how far the model swings in its last second, of where it began.
+double swing(double frames_a_second, double pulse, const std::vector<int>& ticks) {
+    constexpr double tick = 1e-3, start = 1e-3;
+    const double frame_seconds = 1.0 / frames_a_second;
+    LedMotion led;
+    LedState model;
+    BodyMotion engine;
+    model.motion.pose.position.x = engine.pose.position.x = start;
+    Vec3 left(0.0), given(0.0);
+    double farthest = 0.0;
+    for (std::size_t i = 0; model.seconds < 4.0; ++i) {
+        engine.linear_velocity += std::exchange(given, Vec3(0.0));
+        engine.pose.position += engine.linear_velocity * (i == 0 ? 0.0 : frame_seconds);
+        const LedMotion::Frame frame = led.frame(engine, model, frame_seconds, tick);
+        given = frame.impulse;
+        left += frame.correction.by;
+        model.motion.linear_velocity += frame.correction.linear;
+        model.corrected.linear += frame.correction.linear;
+        for (int k = 0; k < ticks[i % ticks.size()]; ++k) {
+            const Vec3 by = left * (tick / frame_seconds);
+            left -= by;
+            model.corrected.by += by;
+            const Vec3 force = -pulse * pulse * (model.motion.pose.position + by);
+            model.impulse += force * tick;
+            model.motion.linear_velocity += force * tick;
+            model.way += model.motion.linear_velocity * tick;
+            model.seconds += tick;
+            model.motion.pose.position += by + model.motion.linear_velocity * tick;
+            farthest = model.seconds > 3.0 ? std::max(farthest, std::abs(model.motion.pose.position.x)) : 0.0;
+        }
+    }
+    return farthest / start;
+}
+
+TEST(LedMotion, ABodyThatSwingsWithinAFewFramesSwingsNoFarther) {
+    for (const double pulse : {50.0, 100.0}) {
+        EXPECT_LT(swing(30.0, pulse, {33, 33, 34}), 1.2) << pulse;
+        EXPECT_LT(swing(60.0, pulse, {17, 17, 16}), 1.2) << pulse;
+        EXPECT_LT(swing(120.0, pulse, {8, 8, 9}), 1.2) << pulse;
+    }
+}
+
+TEST(LedMotion, ABodySwingsNoFartherWhereFramesComeUnevenly) {
+    EXPECT_LT(swing(60.0, 50.0, {33, 0, 34, 0, 33, 0}), 1.5) << "a screen of 30 Hz";
+    EXPECT_LT(swing(60.0, 50.0, {22, 22, 0, 22}), 1.5) << "a screen of 45 Hz";
+    EXPECT_LT(swing(60.0, 50.0, {14, 21, 14, 21, 14, 14}), 1.5) << "a screen of 144 Hz";
+    EXPECT_LT(swing(120.0, 100.0, {17, 0, 16, 0, 17, 0}), 1.5) << "a screen of 60 Hz";
+    EXPECT_LT(swing(60.0, 50.0, {50, 0, 0}), 1.5) << "a screen of 20 Hz";
+}
+
 TEST(LedMotion, FramesInBurstsKickNoHand) {
     Rig rig({.in_bursts = true});
     rig.push(0.2, 2.0, 0.5);
@@ -246,7 +299,7 @@ TEST(LedMotion, FramesInBurstsKickNoHand) {
 
 // A spring of the engine alone, or a wind, that the model finds out.
 TEST(LedMotion, AForceThatOnlyTheEngineKnowsIsFelt) {
-    Rig rig({.gravity = 0.0, .wind = {-1.0, 0.0, 0.0}});
+    Rig rig({.damping = 5.0, .gravity = 0.0, .wind = {-1.0, 0.0, 0.0}});
     rig.push(0.045, 0.1, 4.0);
     Vec3 last(0.0);
     for (std::size_t i = rig.forces.size() - 500; i < rig.forces.size(); ++i) {

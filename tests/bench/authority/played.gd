@@ -175,7 +175,6 @@ func _weld(block: RigidBody3D, mass: float) -> void:
 	hidden.can_sleep = false
 	hidden.collision_layer = 0
 	hidden.collision_mask = 0
-	hidden.linear_velocity = block.linear_velocity
 	hidden.position = block.position
 	var joint := Generic6DOFJoint3D.new()
 	joint.position = block.position
@@ -200,7 +199,6 @@ func _build(world: HapticWorld, one: Case, is_known: bool) -> RigidBody3D:
 		_with_box(block, Vector3.ONE * SIDE, Vector3(-0.2 if one.motion == "stop" else 0.0, SIDE / 2, 0))
 	block.mass = one.mass() * (one.mass_factor * (1.0 + one.hidden) if is_known else 1.0)
 	block.can_sleep = false
-	block.linear_velocity.x = _speed(one)
 	for body: CollisionObject3D in fixed + [block as CollisionObject3D]:
 		body.physics_material_override = material
 		world.add_child(body)
@@ -220,6 +218,7 @@ func _play(one: Case, authority: HapticWorld.Authority, rate: int) -> Played:
 	world.clock = HapticWorld.CLOCK_STEPPED
 	world.gravity = Vector3(0, -9.8, 0)
 	world.authority = authority
+	await process_frame  # Godot goes on at the rate before until its next frame
 	await physics_frame
 	root.add_child(_outside)
 	root.add_child(world)
@@ -232,6 +231,8 @@ func _play(one: Case, authority: HapticWorld.Authority, rate: int) -> Played:
 	var frames := int(SECONDS * rate)
 	for frame in frames:
 		await physics_frame
+		if frame == 0:  # both begin with the first tick
+			_throw(block, _speed(one))
 		for _tick in (frame + 1) * 1000 / rate - frame * 1000 / rate:
 			world.advance(0.001)
 			var forces := PackedVector3Array()
@@ -251,6 +252,12 @@ func _play(one: Case, authority: HapticWorld.Authority, rate: int) -> Played:
 	_outside.free()
 	_outside = Node3D.new()
 	return played
+
+
+## With what is welded to it.
+func _throw(block: RigidBody3D, speed: float) -> void:
+	for body: RigidBody3D in [block] + _outside.find_children("*", "RigidBody3D", false, false):
+		body.linear_velocity.x = speed
 
 
 func _compare(cases: Array[Case]) -> void:
