@@ -331,6 +331,13 @@ void report_lies(Report& report, const std::string& name, const LyingDevice& dev
             const bool is_zero = figures.to_zero_ms >= 0.0;
             ++lies;
             safe += is_safe ? 1 : 0;
+            if (!is_safe) {
+                std::printf(
+                    "%-15s field %d, lie %d (stand_ins/stand_ins.hpp): %.2f N, none after %.2f ms, %s, steps "
+                    "of %.3f N\n",
+                    name.c_str(), field, lie, figures.force, figures.to_zero_ms,
+                    figures.has_returned ? "back" : "not back", figures.return_step_max);
+            }
             if (is_cut) {
                 double& longest = static_cast<Lie>(lie) == Lie::is_frozen ? frozen_to_zero : to_zero;
                 longest = std::max(longest, is_zero ? figures.to_zero_ms : 1e9);
