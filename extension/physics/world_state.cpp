@@ -65,7 +65,7 @@ PhysicsWorld::Impl::Impl(const PhysicsSettings& wanted)
       layers(settings.max_bodies),
       rules(layers, records),
       step_memory(step_memory_size(settings)),
-      jobs(jobs_per_sub_step * static_cast<std::size_t>(settings.sub_steps)),
+      jobs(jobs_per_sub_step * static_cast<std::size_t>(settings.sub_steps), system),
       records(settings.max_bodies),
       far(system, records, settings.full_rate_bodies),
       places(system, settings.max_bodies),
