@@ -45,6 +45,7 @@ FIGURES = {
     "wheel.energy_over_stored": ("energy that a braked wheel gives a hand, over what it had", ""),
     "closed_path_energy_created_max_J": ("most work that one of 40 closed paths round a block gave", "J"),
     "closed_path_energy_between_ticks_max_J": ("… with the mean force of two ticks", "J"),
+    "closed_path_energy_at_handle_max_J": ("… at the handle of a device with motors", "J"),
     "light.impulse_1g": ("impulse that a free body of 1 g got, against what the hand gave", "%"),
     "light.impulse_10g": ("of 10 g", "%"),
     "light.impulse_1kg": ("of 1 kg", "%"),

@@ -50,9 +50,11 @@ inline void add_case(Results& results, const std::string& name, double ours, dou
 // A session with one hand and its fingertip, in virtual time.
 class Stage {
 public:
-    explicit Stage(double radius, const Vec3& start, const Vec3& gravity_there = {0.0, -gravity, 0.0})
+    explicit Stage(double radius, const Vec3& start, const Vec3& gravity_there = {0.0, -gravity, 0.0},
+                   const DeviceCapabilities& device = {})
         : session_(settings(gravity_there)) {
         hand.position = start;
+        hand.can = device;
         ProxyDescription finger;
         Workspace workspace;
         workspace.force_limit = 1e6;
@@ -76,7 +78,7 @@ public:
     }
 
     // The hand goes there in the next tick. The work of the force that it holds meanwhile is counted, and
-    // that of the mean of this force and the next one.
+    // that of the mean of this force and the next one. In contact, motors have friction of their own.
     void go(const Vec3& to) {
         const Vec3 way = to - hand.position;
         const Vec3 before = hand.force;
@@ -85,6 +87,8 @@ public:
         session_.tick(now_ += 1'000'000);
         work_ += glm::dot(before, way);
         work_between_ += 0.5 * glm::dot(before + hand.force, way);
+        if (hand.can.feels && before != Vec3(0.0))
+            friction_ += hand.can.damping * glm::dot(way, way) / tick;
     }
     void wait(double seconds) {
         for (int i = 0; i < seconds / tick; ++i)
@@ -94,6 +98,8 @@ public:
     double work() const { return work_; }
     // The same without what a force that is held for a tick adds (unit: joules).
     double work_between_ticks() const { return work_between_; }
+    // Behind the friction of motors (unit: joules).
+    double work_at_handle() const { return work_ - friction_; }
 
     BodyState state(SessionHandle handle) {
         session_.refresh();
@@ -118,6 +124,7 @@ private:
     Nanoseconds now_ = 0;
     double work_ = 0.0;
     double work_between_ = 0.0;
+    double friction_ = 0.0;
 };
 
 void measure_friction(Results& results);

@@ -80,13 +80,23 @@ double pushed(double mass, double stiffness, double damping, double phase) {
     return mass * stage.state(body).linear_velocity.x / given;
 }
 
-// What a path gave a hand: with the force that a device holds for a tick, and with the mean of two ticks.
+// What a path gave a hand: with the force that a device holds for a tick, with the mean of two ticks, and by
+// a device that has motors and friction of its own.
 struct Given {
-    double held = 0.0, between = 0.0;  // (unit: joules)
+    double held = 0.0, between = 0.0, handle = 0.0;  // (unit: joules)
 };
 
+// As the driver of an Inverse3 declares it.
+DeviceCapabilities with_motors() {
+    DeviceCapabilities device;
+    device.feels = true;
+    device.damping = 2.0;
+    device.max_damping = 10.0;
+    return device;
+}
+
 // A hand goes round a block that stands still and comes back to where it was: no such way may give work.
-Given closed_path(int i) {
+Given closed_path(int i, const DeviceCapabilities& device = {}) {
     const std::array<double, 5> depths{0.003, 0.008, 0.012, 0.015, 0.02};
     const std::array<double, 2> radii{0.002, 0.005};
     const std::array<double, 2> speeds{0.1, 0.4};
@@ -95,7 +105,7 @@ Given closed_path(int i) {
     const double radius = radii[static_cast<std::size_t>(i / 5) % 2];
     const double speed = speeds[static_cast<std::size_t>(i / 10) % 2];
     const double stiffness = stiffnesses[static_cast<std::size_t>(i / 20) % 2];
-    Stage stage(radius, {0.0, 0.05, 0.0}, Vec3(0.0));
+    Stage stage(radius, {0.0, 0.05, 0.0}, Vec3(0.0), device);
     BodyDescription block = shared::box({0.1, 0.06, 0.1}, Vec3(0.0), 1.0);
     block.motion = Motion::Static;
     stage.add(block, stiffness, 0.0);
@@ -109,14 +119,15 @@ Given closed_path(int i) {
     };
     const double down = 0.03 + radius - depth;
     for (int loop = 0; loop < 3; ++loop) {
-        const Given before{stage.work(), stage.work_between_ticks()};
+        const Given before{stage.work(), stage.work_between_ticks(), stage.work_at_handle()};
         to({0.0, down, 0.0});
         to({0.049, down, 0.0});
         to({0.07, down, 0.0});
         to({0.08, 0.05, 0.0});
         to({0.0, 0.05, 0.0});
         most = {std::max(most.held, stage.work() - before.held),
-                std::max(most.between, stage.work_between_ticks() - before.between)};
+                std::max(most.between, stage.work_between_ticks() - before.between),
+                std::max(most.handle, stage.work_at_handle() - before.handle)};
     }
     return most;
 }
@@ -175,10 +186,12 @@ void measure_hand(Results& results) {
     Given created;
     for (int i = 0; i < 40; ++i) {
         const Given path = closed_path(i);
-        created = {std::max(created.held, path.held), std::max(created.between, path.between)};
+        created = {std::max(created.held, path.held), std::max(created.between, path.between),
+                   std::max(created.handle, closed_path(i, with_motors()).handle)};
     }
     results.add("closed_path_energy_created_max_J", created.held);
     results.add("closed_path_energy_between_ticks_max_J", created.between);
+    results.add("closed_path_energy_at_handle_max_J", created.handle);
     results.add("push.force", deviation(accelerated(), 1.0));
 }
 

@@ -55,10 +55,12 @@ public:
         return {position, Quat(1.0, 0.0, 0.0, 0.0), velocity, 0, true};
     }
     void write(Nanoseconds, const Vec3& value) override { force = value; }
+    DeviceCapabilities capabilities() const override { return can; }
 
     Vec3 position{0.0, 1.0, 0.0};
     Vec3 velocity{0.0};
     Vec3 force{0.0};
+    DeviceCapabilities can;
 };
 
 class Rig {

@@ -131,8 +131,8 @@ private:
     int ticks_ = 0;
 };
 
-void tick_over_jolt(Results& results, const std::string& name, int boxes, int rounds) {
-    Boxes whole(boxes, 0, 0);
+void tick_over_jolt(Results& results, const std::string& name, int boxes, int rounds, bool with_hand = true) {
+    Boxes whole(boxes, 0, 0, with_hand);
     BareJolt bare(boxes);
     for (int i = 0; i < 300; ++i)
         bare.run();
@@ -219,6 +219,7 @@ void idle_crowd_step(Results& results, int rounds) {
 
 void measure_ticks(Results& results, int rounds) {
     tick_over_jolt(results, "one_box", 1, rounds);
+    tick_over_jolt(results, "one_box_no_hand", 1, rounds, false);
     tick_over_jolt(results, "ten_boxes", 10, rounds);
 }
 
