@@ -21,10 +21,13 @@ constexpr double weakest = 1e-12;                   // of a hand's spring (unit:
 constexpr double stiffest = 1e9;                    // (unit: newtons per meter; newton seconds per meter)
 constexpr double lightest = 1e-6, heaviest = 1e12;  // (unit: kilograms)
 constexpr double least_inertia = 1e-18, max_inertia = 1e18;  // (unit: kilogram square meters)
-constexpr double max_gravity = 1e5;                          // (unit: meters per square second)
-constexpr double max_gravity_scale = 1e4;                    // (dimensionless)
-constexpr double max_friction = 1e3;                         // (dimensionless)
-constexpr double shortest_way = 1e-6;  // in time, that a body can be told (unit: seconds)
+// Of what the shapes filled evenly have: below, the solver's iterations do not bear a body at its corners,
+// and it sinks into what it rests on (dimensionless).
+constexpr double least_inertia_share = 0.01;
+constexpr double max_gravity = 1e5;        // (unit: meters per square second)
+constexpr double max_gravity_scale = 1e4;  // (dimensionless)
+constexpr double max_friction = 1e3;       // (dimensionless)
+constexpr double shortest_way = 1e-6;      // in time, that a body can be told (unit: seconds)
 
 inline bool is_number(const Vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);

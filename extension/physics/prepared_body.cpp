@@ -5,6 +5,7 @@
 #include <Jolt/Physics/Body/BodyManager.h>
 #include <Jolt/Physics/Collision/Shape/OffsetCenterOfMassShape.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -30,6 +31,14 @@ bool not_negative(double value) {
 
 bool is_inertia(double value) {
     return value >= limits::least_inertia && value <= limits::max_inertia;
+}
+
+// The moment about an axis is at most the sum of the other two: otherwise some of the mass would be negative,
+// and contacts would give energy. Flat bodies have the sum itself, in Godot's single precision.
+bool is_possible(const Vec3& inertia) {
+    constexpr double rounding = 0.01;
+    const double largest = std::max({inertia.x, inertia.y, inertia.z});
+    return largest <= (1.0 + rounding) * (inertia.x + inertia.y + inertia.z - largest);
 }
 
 bool may_turn_dynamic(const BodyDescription& description) {
@@ -62,6 +71,11 @@ std::string wrong_in(const BodyDescription& d) {
         return "the inertia must be between 10^-18 and 10^18 kg m^2 about all three axes; leave it at zero "
                "to "
                "have it computed";
+    if (d.inertia && !is_possible(*d.inertia))
+        return "no body has the inertia " + in_short(d.inertia->x) + ", " + in_short(d.inertia->y) + ", " +
+               in_short(d.inertia->z) +
+               " kg m^2: make the largest at most the sum of the other two, or leave it at zero to have it "
+               "computed";
     if (!not_negative(d.material.friction) || !not_negative(d.material.restitution))
         return "friction and bounce must not be negative";
     if (!not_negative(d.linear_damping) || !not_negative(d.angular_damping) ||
@@ -123,10 +137,11 @@ SolidProperties solid_of(const BodyDescription& description, const JPH::Shape& c
 JPH::MassProperties mass_properties(const BodyDescription& description, const SolidProperties& solid,
                                     const Vec3& center_of_mass) {
     Mat3 inertia = inertia_about(solid, center_of_mass) * (description.mass / solid.volume);
-    if (description.inertia)
-        inertia = {{description.inertia->x, 0.0, 0.0},
-                   {0.0, description.inertia->y, 0.0},
-                   {0.0, 0.0, description.inertia->z}};
+    if (description.inertia) {
+        const Vec3 of_shapes(inertia[0][0], inertia[1][1], inertia[2][2]);
+        const Vec3 own = glm::max(*description.inertia, limits::least_inertia_share * of_shapes);
+        inertia = {{own.x, 0.0, 0.0}, {0.0, own.y, 0.0}, {0.0, 0.0, own.z}};
+    }
     JPH::MassProperties result;
     result.mMass = static_cast<float>(description.mass);
     result.mInertia = JPH::Mat44::sIdentity();

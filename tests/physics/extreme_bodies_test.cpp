@@ -126,6 +126,22 @@ TEST(ExtremeBodies, ASpinOfAThousandKeepsItsEnergyInTheAirAndLosesItOnTheFloor) 
     }
 }
 
+// Its corners could give way without moving its middle, so that it sank.
+TEST(ExtremeBodies, ABoxWithHardlyAnyInertiaStaysOnTheFloor) {
+    for (const double share : {1e-2, 1e-3, 1e-4, 1e-6}) {
+        PhysicsWorld world = small_world();
+        add(world, ground());
+        BodyDescription body = box(Vec3(0.1), {0.0, 0.06, 0.0}, 0.2);
+        body.material.friction = 0.5;
+        body.inertia = Vec3(share * 0.2 * 0.01 / 6.0);
+        body.pose.rotation = glm::normalize(Quat(1.0, 0.02, 0.01, 0.03));
+        const BodyId id = add(world, body);
+        run(world, 3000);
+        EXPECT_NEAR(world.center_of_mass(id).y, 0.05, 1e-4) << share;
+        EXPECT_LT(glm::length(world.linear_velocity(id)), 2e-3) << share;
+    }
+}
+
 // Twenty boxes that give back all of their approach speed, apart from one another at first. What is pressed
 // into one another counts as too low or too high for a moment.
 TEST(ExtremeBodies, ElasticBoxesGainNothing) {

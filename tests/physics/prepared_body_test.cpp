@@ -82,6 +82,14 @@ TEST(PreparedBody, MassThatIsNoMass) {
     EXPECT_TRUE(prepare(body).ready());
 }
 
+TEST(PreparedBody, InertiaThatNoBodyHas) {
+    BodyDescription body = with(SphereShape{});
+    body.inertia = Vec3(0.1, 0.2, 0.4);
+    expect_refused(body, "sum of the other two");
+    body.inertia = Vec3(0.1, 0.2, 0.3);
+    EXPECT_TRUE(prepare(body).ready());
+}
+
 TEST(PreparedBody, MeshWithoutTriangles) {
     expect_refused(with(MeshShape{}, Motion::Static), "no vertices");
     expect_refused(
