@@ -170,6 +170,14 @@ private:
         return guessed_for_ > 1.5 * settings_.seconds && !stands(glm::length(anchor_.velocity), spin);
     }
 
+    // A hand that is not there is at no position.
+    static bool is_there(const Sample& sample) {
+        if constexpr (requires { sample.connected; }) {
+            return sample.connected;
+        }
+        return true;
+    }
+
     void forget() {
         ring_.clear();
         playing_ = false;
@@ -271,6 +279,13 @@ private:
         const Sample earlier = here ? *here : played_;
         const double from = here ? place(turn) : place(played_.sequence) + fraction_;
         const Sample& later = *ring_.at_or_after(turn + 1);  // the newest one is there
+        fraction_ = part;
+        ++counts_.filled;
+        if (!is_there(earlier) || !is_there(later)) {
+            played_ = earlier;
+            played_.sequence = turn;
+            return Playing::filled;
+        }
         const double share = std::clamp((head_ - from) / (place(later.sequence) - from), 0.0, 1.0);
         slewing_ = slewing_ || later.sequence - earlier.sequence > wide;
         played_ = later;
@@ -281,8 +296,6 @@ private:
             played_.rotation = glm::slerp(earlier.rotation, later.rotation, share);
             played_.spin = earlier.spin + (later.spin - earlier.spin) * share;
         }
-        fraction_ = part;
-        ++counts_.filled;
         return Playing::filled;
     }
 
@@ -322,16 +335,19 @@ private:
         slewing_ = true;
     }
 
-    // Where the hand went on while nothing was heard it is led there. `first`: there is no hand yet.
+    // Where the hand went on while nothing was heard it is led there. One that comes begins where it is.
+    // `first`: there is no hand yet.
     void limit_speed(bool first) {
         const Sample before = std::exchange(out_, played_);
         led_ = false;
         if (first) {
             return;
         }
-        led_ = limit_way(before.position);
-        if constexpr (TurningSample<Sample>) {
-            led_ = limit_turn(before.rotation) || led_;
+        if (is_there(before) && is_there(played_)) {
+            led_ = limit_way(before.position);
+            if constexpr (TurningSample<Sample>) {
+                led_ = limit_turn(before.rotation) || led_;
+            }
         }
         if (!led_ && catching_up_ == 0.0 && held_for_ == 0) {
             slewing_ = false;

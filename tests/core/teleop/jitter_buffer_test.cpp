@@ -519,6 +519,37 @@ TEST(JitterBuffer, ATurnIsCarriedOnWithItsSpinUntilItIsTooOld) {
 }
 
 // Nobody turns a hand by half a turn in a tick, whatever is said.
+struct Present : Sample {
+    bool connected = true;
+};
+
+// A hand that is not there is nowhere: it begins anew where it is when it comes, however it was lost.
+TEST(JitterBuffer, AHandThatComesIsNotLedFromWhereItLeft) {
+    for (const bool is_sparse : {false, true}) {
+        for (const std::uint64_t lost : {0u, 5u, 100u}) {
+            JitterBuffer<Present> buffer(is_sparse ? sparse() : JitterBufferSettings{});
+            const Vec3 left(0.0, 0.1, 0.0), comes(0.0, -0.1, 0.0);
+            Present out;
+            int there = 0;
+            for (std::uint64_t sequence = 1; sequence <= 1000; ++sequence) {
+                const bool is_here = sequence >= 500;
+                if (sequence < 500 || sequence >= 500 + lost) {
+                    Present sample;
+                    sample.sequence = sequence;
+                    sample.position = is_here ? comes : left;
+                    sample.connected = is_here;
+                    buffer.insert(sample);
+                }
+                if (buffer.play(out) != Playing::waiting && out.connected) {
+                    ++there;
+                    ASSERT_EQ(out.position.y, comes.y) << is_sparse << ", " << lost << ", " << sequence;
+                }
+            }
+            EXPECT_GT(there, 300);
+        }
+    }
+}
+
 TEST(JitterBuffer, AHandThatFlipsIsTurnedNoFasterThanAHand) {
     using Turned = JitterBuffer<TurnedSample>;
     Turned buffer;
