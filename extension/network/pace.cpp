@@ -14,7 +14,11 @@ constexpr Nanoseconds shows_after = 2'500'000'000;
 
 // The share lost is smoothed: so long it takes to tell of a change.
 constexpr Nanoseconds loss_shows_after = nanoseconds_per_second;
-constexpr double still_lost = 0.75;  // of what was lost before less was sent: that has not helped
+// Half as much was sent. Where the way is too narrow, a share L lost becomes 2 L - 1, or 0. It has not helped
+// where more than this of L is still lost,
+constexpr double still_lost = 0.75;
+// and where less than this times 1 - L comes: where L is near 1 it falls by little, and twice as much comes.
+constexpr double more_comes = 1.4;
 constexpr double lost_more = 1.3;    // than is lost anyway
 constexpr double hardly_lost = 0.5;  // of what is much
 
@@ -51,21 +55,25 @@ void Pace::adapt(Endpoint& link, Nanoseconds now) {
     }
 }
 
-// Much, and more than is lost whatever is sent. Asked again only once the last answer can have shown.
+// Much for so long that all of it shows, or since more is sent, and more than is lost whatever is sent. Asked
+// again only once the last answer can have shown.
 bool Pace::loses(double lost, Nanoseconds now) {
     if (lost <= hardly_lost * settings_.much_lost) {
         lost_before_ = lost_anyway_ = 0.0;
     }
+    little_lost_at_ = lost <= settings_.much_lost ? now : little_lost_at_;
     if (now - changed_at_ < loss_shows_after) {
         return false;
     }
-    if (lost_before_ > 0.0 && lost > still_lost * lost_before_) {
+    if (lost_before_ > 0.0 && lost > still_lost * lost_before_ &&
+        1.0 - lost < more_comes * (1.0 - lost_before_)) {
         lost_anyway_ = std::max(lost, std::exchange(lost_before_, 0.0));
         stride_ = std::max(1u, stride_ / 2);
         changed_at_ = now;
         return false;
     }
-    return lost > std::max(settings_.much_lost, lost_more * lost_anyway_);
+    const bool shows = tried_more_ || now - little_lost_at_ >= loss_shows_after;
+    return shows && lost > std::max(settings_.much_lost, lost_more * lost_anyway_);
 }
 
 }  // namespace tactus

@@ -43,6 +43,7 @@ private:
     bool queues_ = false;
     Nanoseconds congested_at_ = 0;
     Nanoseconds changed_at_ = 0;
+    Nanoseconds little_lost_at_ = 0;
     Nanoseconds patience_ = double_after;  // without trouble before more is tried
     bool tried_more_ = false;              // and not known yet whether it was too much
     double lost_before_ = 0.0;             // share lost when less was sent for it; 0: not so

@@ -70,6 +70,48 @@ TEST(QueueWatch, AQueueThatAnswersNothingIsThereStill) {
     EXPECT_FALSE(watch.figures().falls());
 }
 
+// It is full before a request finds a queue, and then none is answered: only what is lost tells of it.
+TEST(Pace, AWayThatIsFilledAtOnceIsFound) {
+    for (const double rate : {100e3, 150e3, 200e3}) {
+        LinkConditions conditions;
+        conditions.delay = 10 * ms;
+        conditions.rate = rate;
+        EndpointRig rig(conditions, 6);
+        Pace pace(PaceSettings{0.1, 8});
+        rig.run(3000 * ms, [] {});
+        int tick = 0;
+        const auto send = [&] {
+            if (++tick % pace.stride() == 0) {
+                rig.far().send(samples::force(1.0));
+            }
+            pace.adapt(rig.far(), rig.now());
+        };
+        rig.run(1000 * ms, send);
+        EXPECT_GT(rig.far().statistics().lost_there, 0.1) << rate;
+        rig.run(9000 * ms, send);
+        EXPECT_LT(rig.far().statistics().lost_there, 0.1) << rate;
+    }
+}
+
+// More packets are what helps there.
+TEST(Pace, LossByChanceThrottlesOnlyToAsk) {
+    for (const double loss : {0.2, 0.5, 0.9}) {
+        LinkConditions conditions;
+        conditions.delay = 10 * ms;
+        conditions.loss = loss;
+        EndpointRig rig(conditions, 6);
+        Pace pace(PaceSettings{0.1, 8});
+        int ticks = 0, throttled = 0;
+        rig.run(60'000 * ms, [&] {
+            rig.far().send(samples::force(1.0));
+            pace.adapt(rig.far(), rig.now());
+            ++ticks;
+            throttled += pace.stride() > 1 ? 1 : 0;
+        });
+        EXPECT_LT(throttled, 0.1 * ticks) << loss;
+    }
+}
+
 // What is sent over a way with jitter, without a limit and without losses, is all that there is to send.
 TEST(Pace, JitterThrottlesNothingAndLosesNothing) {
     for (const JitterShape shape : {JitterShape::uniform, JitterShape::normal})
