@@ -2,10 +2,12 @@
 // with a torque. Its changes are hidden whichever stealthy correction is chosen; none is carried along.
 #include <algorithm>
 #include <array>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <utility>
 
 #include "core/safety/limited_force.hpp"
+#include "network/plausibility.hpp"
 #include "session/operator_side.hpp"
 
 namespace tactus {
@@ -267,13 +269,16 @@ void OperatorSide::send_tool(SessionLoop& loop, std::size_t index, const ToolSlo
     const bool is_held = device.connected && slot.use.enabled;
     const bool is_absent = !settings().traditional && (slot.state.status & tool_absent) != 0;
     tool.has_fit = is_held && (tool.has_fit || !is_absent);
-    sample.connected = is_held && tool.has_fit;
+    sample.connected = is_held && tool.has_fit && !waits_for_model();
     sample.buttons = device.buttons;
     sample.position = place.position;
     sample.velocity = direction_to_local(frame, slot.hand.velocity);
     sample.has_turn = true;
     sample.rotation = place.rotation;
     sample.spin = direction_to_local(frame, slot.hand.spin);
+    sample.force = settings().traditional ? Vec3(0.0)
+                                          : glm::clamp(direction_to_local(frame, slot.state.force),
+                                                       -plausible::max_force, plausible::max_force);
     const bool says_nothing_new = is_guessed(tool.sent, sample);
     if (!says_nothing_new || is_due(tool.sent, now)) {
         send(tool.sent, sample, says_nothing_new, now);

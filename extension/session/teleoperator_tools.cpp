@@ -16,8 +16,7 @@ void TeleoperatorSide::play(SessionLoop& loop, std::size_t index, ToolSlot& slot
     const bool waits = hands_.play(slot, tool.played) == Playing::waiting;
     const bool is_given = slot.hand.holds;
     const bool another_goes = tool.is_new && !tool.idle;
-    if (waits || another_goes || !tool.played.connected || !is_given ||
-        !channel_.works_together(first_tool + index)) {
+    if (waits || another_goes || !tool.played.connected || !is_given || !works_together(first_tool + index)) {
         let_go(tool, slot);
         return;
     }
@@ -107,6 +106,9 @@ void TeleoperatorSide::draw_back(Tool& tool, ToolSlot& slot, const ToolState& be
     in.stiffness = slot.use.settings.stiffness;
     in.force = glm::length(before.force);
     in.seconds = seconds_;
+    if (!settings().traditional) {
+        in.own_force = glm::length(tool.played.force);
+    }
     tool.limit.step(in);
     const Pose& reached = slot.state.pose;
     const double depth = slot.state.contact_count > 0 ? slot.stretch(reached) : 0.0;
@@ -122,7 +124,8 @@ void TeleoperatorSide::draw_back(Tool& tool, ToolSlot& slot, const ToolState& be
 }
 
 void TeleoperatorSide::come_back(SessionLoop& loop, Tool& tool, ToolSlot& slot) const {
-    if (const std::optional<Pose> from = way_back(loop, tool.kept, false)) {
+    const bool is_free = !settings().traditional && tool.played.force == Vec3(0.0);
+    if (const std::optional<Pose> from = way_back(loop, tool.kept, is_free)) {
         ToolMemory memory;
         memory.pose = *from;
         memory.present = true;
