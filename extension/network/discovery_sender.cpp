@@ -55,6 +55,7 @@ void DiscoverySender::withdraw(ObjectId object, std::shared_ptr<const std::vecto
     Entry* const entry = find(object);
     if (entry != nullptr && entry->progress != Progress::removing) {
         released = std::move(entry->prepared.content);
+        note_answer(*entry);
         set_progress(*entry, Progress::removing);
         entry->revision = ++revision_;
         entry->due = 0;
@@ -69,6 +70,8 @@ void DiscoverySender::restart() {
             drop(entry);
         } else {
             set_progress(entry, Progress::waiting);
+            counts_.unanswered += entry.unanswered ? 0 : 1;
+            entry.unanswered = true;
             entry.offset = 0;
             entry.due = 0;
         }
@@ -77,10 +80,16 @@ void DiscoverySender::restart() {
 
 bool DiscoverySender::take(const DiscoveryAcknowledgement& acknowledgement) {
     Entry* entry = find(acknowledgement.object);
-    if (entry == nullptr || entry->prepared.hash != acknowledgement.hash) {
-        return false;  // of an earlier description
+    if (entry == nullptr) {
+        return false;
     }
     const bool removed = acknowledgement.verdict == DiscoveryVerdict::removed;
+    if (!removed) {
+        note_answer(*entry);
+    }
+    if (entry->prepared.hash != acknowledgement.hash) {
+        return false;  // of an earlier description
+    }
     if (entry->progress == Progress::removing) {
         if (removed) {
             drop(*entry);
@@ -134,6 +143,11 @@ void DiscoverySender::stop_telling(Entry& entry) {
     entry.under_way = 0;
 }
 
+void DiscoverySender::note_answer(Entry& entry) {
+    counts_.unanswered -= entry.unanswered ? 1 : 0;
+    entry.unanswered = false;
+}
+
 void DiscoverySender::fill(Entry& entry, Nanoseconds now, Message& message) {
     const PreparedDiscovery& prepared = entry.prepared;
     if (entry.progress == Progress::removing) {
@@ -184,6 +198,7 @@ void DiscoverySender::set_progress(Entry& entry, Progress progress) {
 
 void DiscoverySender::drop(Entry& entry) {
     stop_telling(entry);
+    note_answer(entry);
     --count_of(entry.progress);
     if (&entry != &entries_.back()) {
         std::swap(entry, entries_.back());

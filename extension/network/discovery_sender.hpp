@@ -28,8 +28,10 @@ PreparedDiscovery prepare_discovery(const ObjectJoint& joint);
 struct DiscoveryCounts {
     std::uint32_t waiting = 0;  // objects that are not acknowledged yet, and removals
     std::uint32_t known = 0;
-    std::uint32_t refused = 0;      // the far side cannot build them
-    std::uint32_t no_room = 0;      // the far side has no room for them
+    std::uint32_t refused = 0;  // the far side cannot build them
+    std::uint32_t no_room = 0;  // the far side has no room for them
+    // Objects that were there when the far side started, and of which it has acknowledged no description yet.
+    std::uint32_t unanswered = 0;
     std::uint64_t pieces_sent = 0;  // repetitions included
 };
 
@@ -76,6 +78,7 @@ private:
         std::uint32_t offset = 0;  // of the next piece
         Nanoseconds due = 0;
         std::size_t under_way = 0;  // its bytes while it is being told
+        bool unanswered = false;    // see DiscoveryCounts
     };
 
     static bool waits(Progress progress) {
@@ -84,6 +87,7 @@ private:
     Entry* find(ObjectId object);
     bool may_be_told(const Entry& entry, Nanoseconds now) const;
     void stop_telling(Entry& entry);
+    void note_answer(Entry& entry);
     void set_progress(Entry& entry, Progress progress);
     std::uint32_t& count_of(Progress progress);
     void drop(Entry& entry);

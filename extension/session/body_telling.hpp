@@ -35,6 +35,9 @@ public:
     // What queues on the way there is descriptions, which can be told more slowly.
     bool yields() const { return bulk_.can_yield(); }
     const DiscoveryCounts& counts() const { return discovery_.counts(); }
+    // Whether this start of the operator has had all bodies that were there then. Bodies that come later, or
+    // are described anew again and again, change nothing of it.
+    bool is_whole() const { return counts().unanswered == 0; }
 
 private:
     DiscoverySender discovery_;

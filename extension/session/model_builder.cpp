@@ -96,6 +96,7 @@ void ModelBuilder::follow_gravity(Nanoseconds now, const Vec3& wanted) {
 void ModelBuilder::take(DiscoveryEvent& event, Nanoseconds now) {
     switch (event.kind) {
         case DiscoveryEvent::Kind::described:
+            begin_first();
             if (is_joint(event.object)) {
                 port_->discovery.answer(event.object, joints_.describe(event.joint));
             } else {
@@ -139,10 +140,22 @@ bool ModelBuilder::all_known() const {
     return static_cast<std::size_t>(bodies) + joints_.count() >= object_count_;
 }
 
+// Until it is whole no hand touches the model: the far side's would press what is not described yet.
+void ModelBuilder::begin_first() {
+    if (first_ == First::awaited) {
+        first_ = First::begun;
+        waiting_.push_back(description_begins);
+    }
+}
+
 // What a body rests on may be described after it: nothing falls before all is.
 void ModelBuilder::let_fall(Nanoseconds now) {
     if (!all_known() && now - news_at_ < floats_at_most) {
         return;
+    }
+    if (first_ == First::begun) {
+        first_ = First::whole;
+        waiting_.push_back(description_is_whole);
     }
     for (ModelObject& object : objects_) {
         if (std::exchange(object.floats, false) && object.body != no_handle) {

@@ -84,6 +84,7 @@ private:
     void outdate(Nanoseconds now);
     bool all_described(Nanoseconds now, const LinkStatistics& link) const;
     bool all_known() const;
+    void begin_first();
     void let_fall(Nanoseconds now);
     void remove_outdated();
     void follow_gravity(Nanoseconds now, const Vec3& wanted);
@@ -109,6 +110,7 @@ private:
     ModelJoints joints_;
     Nanoseconds outdated_at_ = 0;  // when the far side has started anew
     bool any_outdated_ = false;
+    enum class First : std::uint8_t { awaited, begun, whole } first_ = First::awaited;  // description
     std::deque<ObjectBinding> waiting_;  // found the ring full
     Vec3 gravity_{0.0};                  // as set last (unit: meters per second squared)
     Nanoseconds gravity_at_ = 0;

@@ -78,7 +78,7 @@ void OperatorSide::send_sample(SessionLoop& loop, std::size_t index, Nanoseconds
     sample.sequence = sample_;
     sample.time = channel_.link().local_time(now);
     sample.pointer = static_cast<std::uint16_t>(index);
-    sample.connected = device.connected;
+    sample.connected = device.connected && !waits_for_model();
     sample.buttons = device.buttons;
     const Pose& frame = settings().frame;
     sample.position = to_local(frame, slot.hand);

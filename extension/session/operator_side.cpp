@@ -81,17 +81,26 @@ void OperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
     }
 }
 
-// A hand that cannot work together with the far side's touches nothing.
+// Until the model is whole a hand touches nothing, and is absent at the far side.
+bool OperatorSide::waits_for_model() const {
+    return !is_described_ && !settings().traditional;
+}
+
+// Nor does one that cannot work together with the far side's.
+bool OperatorSide::is_held_back(std::size_t hand) const {
+    return waits_for_model() || !channel_.works_together(hand);
+}
+
 void OperatorSide::hold_back_hands(SessionLoop& loop) {
     for (std::size_t i = 0; i < max_proxies; ++i) {
         SessionLoop::ProxySlot& slot = loop.proxy(i);
-        const bool idle = !channel_.works_together(i);
+        const bool idle = is_held_back(i);
         changed_ = changed_ || (slot.proxy && slot.idle != idle);
         slot.idle = idle;
     }
     for (std::size_t i = 0; i < max_tools; ++i) {
         if (ToolSlot* const slot = loop.tool(i)) {
-            slot->hand.holds = slot->hand.holds && channel_.works_together(first_tool + i);
+            slot->hand.holds = slot->hand.holds && !is_held_back(first_tool + i);
         }
     }
 }
@@ -228,6 +237,10 @@ void OperatorSide::forget_far_side() {
 }
 
 void OperatorSide::bind(const ObjectBinding& binding) {
+    if (binding.object == no_object) {
+        is_described_ = binding.body == description_is_whole.body;
+        return;
+    }
     if (binding.object >= body_of_object_.size()) {
         return;
     }
@@ -575,6 +588,7 @@ void OperatorSide::report(SessionLoop& loop, Nanoseconds now) {
     channel_.set_own(terms);
     acknowledge();
     statistics_.sample = sample_;
+    statistics_.waits_for_model = waits_for_model();
     statistics_.doubt = touched_doubt(loop);
     statistics_.ghosts = ghosts_.seen(now);
     channel_.end_tick(statistics_);

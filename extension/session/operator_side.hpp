@@ -141,6 +141,8 @@ private:
 
     // --- operator_side.cpp
     void take_settings(SessionLoop& loop);
+    bool waits_for_model() const;
+    bool is_held_back(std::size_t hand) const;
     void hold_back_hands(SessionLoop& loop);
     void round_hands(SessionLoop& loop) const;
     void begin_model(SessionLoop& loop);
@@ -246,6 +248,7 @@ private:
     std::vector<Found> found_;         // by body
     std::vector<SessionHandle> news_;  // of found_
     GhostEar ghosts_;
+    bool is_described_ = true;  // false: the far side's first description is under way
     std::vector<SessionHandle> body_of_object_;
     std::vector<ObjectId> object_of_body_;
     std::vector<Vec3> hands_;  // that are there

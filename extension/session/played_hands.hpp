@@ -105,6 +105,12 @@ private:
             return;
         }
         Standing& newest = standing_[sample.pointer];
+        // A hand that waits for its model is absent in every sample.
+        constexpr SampleSequence seldom = 20;
+        if (!settings_.sparse && newest.sequence != no_sample && sample.sequence > newest.sequence &&
+            sample.sequence < newest.sequence + seldom) {
+            return;
+        }
         newest = sample.sequence > newest.sequence ? Standing{sample.sequence, true} : newest;
     }
 

@@ -107,6 +107,7 @@ struct TeleopStatistics {
     EnergyFigures energy;
     std::uint64_t without_past = 0;  // states of moving bodies for which there is no room in the model's past
     std::uint64_t beyond_history = 0;  // operator: states of moving bodies older than the model's past
+    bool waits_for_model = false;      // operator: the first description of the far side is under way
     SeenGhosts ghosts;                 // operator: the hands of others
     double doubt = 0.0;  // operator: of a place that is touched, as the far side sees it, standard
                          // deviation (unit: meters)
@@ -121,6 +122,9 @@ struct ObjectBinding {
     ObjectId object = no_object;
     SessionHandle body = no_handle;
 };
+// The far side's first description has begun, and is whole.
+inline constexpr ObjectBinding description_begins{no_object, 0};
+inline constexpr ObjectBinding description_is_whole{no_object, no_handle};
 
 // Hears what crosses a port to the loop, for a recording of it (input_recorder.hpp).
 class PortTap {

@@ -410,10 +410,26 @@ WorldLink::Standing WorldLink::standing_of_peer() const {
         return {LinkState::refused, differs};
     }
     std::string text = "connected";
-    for (const std::string& besides : {differs, short_history(), narrow_states(), plan_.trace_problem}) {
+    for (const std::string& besides :
+         {differs, unfinished_model(), short_history(), narrow_states(), plan_.trace_problem}) {
         text += besides.empty() ? "" : "; " + besides;
     }
     return {LinkState::connected, text};
+}
+
+// No hand touches a model that lacks what is there.
+std::string WorldLink::unfinished_model() const {
+    const TeleopStatistics& teleop = port_->statistics.front();
+    if (is_operator()) {
+        return teleop.waits_for_model ? "the teleoperator describes its bodies: pointers and tools touch "
+                                        "nothing until the model has all of them"
+                                      : "";
+    }
+    const std::uint32_t missing = plan_.teleop.traditional ? 0 : teleop.discovery.unanswered;
+    return missing == 0
+               ? ""
+               : "the operator's model has " + std::to_string(missing) +
+                     " bodies less than this world: pointers and tools touch nothing until it has them";
 }
 
 // States that are older than the model's history are brought to the present by their velocity alone.

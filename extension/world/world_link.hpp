@@ -180,6 +180,7 @@ private:
     void note_refusals(Nanoseconds now);
     Standing standing() const;
     Standing standing_of_peer() const;
+    std::string unfinished_model() const;
     std::string short_history() const;
     std::string narrow_states() const;
 

@@ -165,6 +165,43 @@ TEST(Discovery, ALateJoinerIsToldEverything) {
     EXPECT_EQ(rig.sender.counts().known, 2u);
 }
 
+// Until all is acknowledged that was there when the two met, whatever comes or is described anew meanwhile.
+TEST(Discovery, TheFirstDescriptionEndsWhateverComesMeanwhile) {
+    DiscoveryRig rig;
+    for (ObjectId object = 0; object < 20; ++object) {
+        rig.announce(samples::object_of_all_shapes(object));
+    }
+    EXPECT_EQ(rig.sender.counts().unanswered, 0u) << "there is no far side yet";
+    std::uint32_t most = 0;
+    for (ObjectId object = 20; object < 400; ++object) {
+        ObjectDescription changes = samples::object_of_all_shapes(0);
+        changes.body.mass = 1.0 + object;
+        rig.announce(changes);
+        rig.announce(samples::object_of_all_shapes(object));
+        rig.run(ms);
+        most = std::max(most, rig.sender.counts().unanswered);
+    }
+    EXPECT_GE(most, 20u);
+    EXPECT_EQ(rig.sender.counts().unanswered, 0u);
+    EXPECT_GT(rig.sender.counts().waiting, 0u);
+}
+
+TEST(Discovery, WhatIsWithdrawnIsNotWaitedFor) {
+    DiscoverySender sender;
+    for (ObjectId object = 0; object < 3; ++object) {
+        PreparedDiscovery discovery = prepared(samples::object_of_all_shapes(object));
+        ASSERT_TRUE(sender.announce(discovery));
+    }
+    sender.restart();
+    sender.restart();
+    EXPECT_EQ(sender.counts().unanswered, 3u);
+    std::shared_ptr<const std::vector<std::byte>> released;
+    sender.withdraw(1, released);
+    EXPECT_EQ(sender.counts().unanswered, 2u);
+    sender.restart();
+    EXPECT_EQ(sender.counts().unanswered, 2u);
+}
+
 TEST(Discovery, AFarSideThatRestartsTakesItsObjectsWithIt) {
     DiscoveryRig rig;
     rig.announce(samples::object_of_size(1, 50));

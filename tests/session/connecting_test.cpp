@@ -141,5 +141,69 @@ TEST(Connecting, WhatIsDescribedAnewKeepsItsWeight) {
     EXPECT_FALSE(rig.near->find("Box")->floats);
 }
 
+double force_of(const Session& session) {
+    return glm::length(session.snapshot().proxies[0].force);
+}
+
+// The hand comes down on a table that is described last.
+void press_while_connecting(const LinkConditions& conditions, std::uint64_t network,
+                            const TeleopSettings& settings = {}) {
+    ModelRig rig(conditions, settings, network);
+    pile(rig, 20);
+    rig.far->add("Table", body(BoxShape{{1.0, 0.1, 1.0}}, {0.0, -0.1, 0.5}, Motion::Static));
+    double most = 0.0;
+    for (int i = 0; i < 4000; ++i) {
+        const double way = std::clamp((i - 150) / 200.0, 0.0, 1.0);
+        rig.near->device.position = {0.0, 0.1 - 0.11 * way, 0.4};
+        rig.run(ms);
+        most = std::max(most, force_of(rig.far->session) - force_of(rig.near->session));
+    }
+    EXPECT_LT(most, 1.0) << "loss " << conditions.loss << ", network " << network;
+}
+
+TEST(Connecting, NoFarHandPressesWhatIsNotDescribedYet) {
+    for (std::uint64_t network = 1; network <= 10; ++network) {
+        LinkConditions conditions;
+        conditions.delay = 25 * ms;
+        conditions.loss = 0.9;
+        press_while_connecting(conditions, network);
+    }
+}
+
+TEST(Connecting, NoFarHandPressesWhatANarrowLinkBringsLate) {
+    for (const double rate : {32e3, 64e3, 128e3}) {
+        LinkConditions conditions;
+        conditions.delay = 25 * ms;
+        conditions.rate = rate;
+        press_while_connecting(conditions, 1);
+    }
+}
+
+TEST(Connecting, NoFarHandPressesWhatIsNotDescribedYetWithADeadband) {
+    TeleopSettings settings;
+    settings.deadband.enabled = true;
+    for (const double loss : {0.3, 0.9}) {
+        LinkConditions conditions;
+        conditions.delay = 5 * ms;
+        conditions.loss = loss;
+        press_while_connecting(conditions, 3, settings);
+    }
+}
+
+TEST(Connecting, BothHandsPressOnceAllIsDescribed) {
+    LinkConditions conditions;
+    conditions.delay = 25 * ms;
+    conditions.loss = 0.5;
+    ModelRig rig(conditions);
+    pile(rig, 3);
+    rig.far->add("Table", body(BoxShape{{1.0, 0.1, 1.0}}, {0.0, -0.1, 0.5}, Motion::Static));
+    rig.near->device.position = {0.0, 0.1, 0.4};
+    rig.run(4000 * ms);
+    rig.near->device.position = {0.0, -0.01, 0.4};
+    rig.run(2000 * ms);
+    EXPECT_GT(force_of(rig.near->session), 3.0);
+    EXPECT_NEAR(force_of(rig.far->session), force_of(rig.near->session), 0.1);
+}
+
 }  // namespace
 }  // namespace tactus::connecting_test

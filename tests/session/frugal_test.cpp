@@ -191,13 +191,15 @@ struct Waits {
     double mean = 0.0, longest = 0.0;  // (unit: nanoseconds)
 };
 
-// How long what comes from the environment is on its way.
+// How long what comes from the environment is on its way. Both sides have the same clock: what the link takes
+// them to differ by, where one way is slower than the other, is none of it.
 Waits waits(ModelRig& rig, Nanoseconds span) {
     Waits found;
     const auto looks = static_cast<int>(span / (10 * ms));
     for (int i = 0; i < looks; ++i) {
         rig.run(10 * ms);
-        const double now = rig.near->port->statistics.front().link.one_way_delay;
+        const LinkStatistics& link = rig.near->port->statistics.front().link;
+        const double now = link.one_way_delay - static_cast<double>(link.clock.offset);
         found.mean += now / looks;
         found.longest = std::max(found.longest, now);
     }
