@@ -2,6 +2,7 @@
 //
 //     ./run bench teleop --agreement=1: sides that differ, see tests/shared/agreement.hpp.
 //     ./run bench teleop --still=1: a hand that holds still, see tests/shared/unexplained_steps.hpp.
+//     ./run bench teleop --lossy=1 [--seeds=20]: a deadband and losses, see tests/shared/lossy_hands.hpp.
 //
 // Both files are lines of words (tests/shared/teleop_words.hpp). The result is one line of JSON a case: its
 // name, its figures and, with --bins=1, how the ticks spread.
@@ -14,6 +15,7 @@
 
 #include "shared/agreement.hpp"
 #include "shared/bench_kit.hpp"
+#include "shared/lossy_hands.hpp"
 #include "shared/teleop_run.hpp"
 #include "shared/teleop_words.hpp"
 #include "shared/unexplained_steps.hpp"
@@ -82,6 +84,36 @@ void print_still() {
     }
 }
 
+// The last line sums up: goals are 0, 0 and at most 1 N.
+void print_lossy(int seeds) {
+    int touches = 0, beyond = 0;
+    double most_excess = 0.0;
+    for (const LossyCase& one : lossy_cases()) {
+        LossyFigures all;
+        double excess = 0.0;
+        for (int seed = 1; seed <= seeds; ++seed) {
+            const LossyFigures figures = run_lossy(one, static_cast<std::uint64_t>(seed));
+            all.touches += figures.touches;
+            all.beyond += figures.beyond;
+            all.far_force = std::max(all.far_force, figures.far_force);
+            all.own_force = std::max(all.own_force, figures.own_force);
+            excess = std::max(excess, figures.excess());
+        }
+        std::printf(
+            "{\"case\": \"%s\", \"far_touch_without_operator\": %d, \"far_beyond_body_ticks\": %d, "
+            "\"far_force_max_N\": %.9g, \"operator_force_max_N\": %.9g, \"far_over_operator_max_N\": %.9g}\n",
+            one.name.c_str(), all.touches, all.beyond, all.far_force, all.own_force, excess);
+        std::fflush(stdout);
+        touches += all.touches;
+        beyond += all.beyond;
+        most_excess = std::max(most_excess, excess);
+    }
+    std::printf(
+        "{\"case\": \"all\", \"seeds\": %d, \"far_touch_without_operator\": %d, "
+        "\"far_beyond_body_ticks\": %d, \"far_over_operator_max_N\": %.9g}\n",
+        seeds, touches, beyond, most_excess);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -91,6 +123,8 @@ int main(int argc, char** argv) {
     const bool with_bins = options.text("bins") == "1";
     const bool agreement = options.text("agreement") == "1";
     const bool still = options.text("still") == "1";
+    const bool lossy = options.text("lossy") == "1";
+    const int seeds = static_cast<int>(options.number("seeds", 20.0));
     if (!options.understood()) {
         return 2;
     }
@@ -100,6 +134,10 @@ int main(int argc, char** argv) {
     }
     if (still) {
         print_still();
+        return 0;
+    }
+    if (lossy) {
+        print_lossy(seeds);
         return 0;
     }
     if (scene_file.empty() || cases_file.empty()) {

@@ -1,0 +1,50 @@
+// A hand with a deadband over a link that loses packets, see shared/lossy_hands.hpp; all of its cases and
+// seeds: ./run bench teleop --lossy=1.
+#include "shared/lossy_hands.hpp"
+
+#include <gtest/gtest.h>
+
+namespace tactus::lossy_hands_test {
+namespace {
+
+using namespace shared;
+
+// The hand comes to rest in one tick, and no guess leads farther than 25 ms. A robot is heavy: it hits what
+// it presses.
+void expect_no_more_than_the_operator(const std::string& ending) {
+    constexpr double lead = 500.0 * 0.7 * 0.025;  // (unit: newtons)
+    int found = 0;
+    for (const LossyCase& one : lossy_cases()) {
+        if (!one.name.ends_with(ending)) {
+            continue;
+        }
+        ++found;
+        for (const std::uint64_t seed : {1u, 2u}) {
+            SCOPED_TRACE(one.name + ", seed " + std::to_string(seed));
+            const LossyFigures figures = run_lossy(one, seed);
+            EXPECT_TRUE(figures.agreed);
+            EXPECT_EQ(figures.touches, 0);
+            EXPECT_EQ(figures.beyond, 0);
+            EXPECT_EQ(figures.far_force > 1.0, one.presses);
+            if (one.hand != LossyHand::robot) {
+                EXPECT_LE(figures.excess(), lead);
+            }
+        }
+    }
+    EXPECT_EQ(found, 6) << "three hands, which stop or press";
+}
+
+TEST(LossyHands, HalfOfAllPacketsAreLost) {
+    expect_no_more_than_the_operator("loss_50");
+}
+
+TEST(LossyHands, PacketsAreLostInBursts) {
+    expect_no_more_than_the_operator("bursts_20");
+}
+
+TEST(LossyHands, NothingGetsThroughForAWhile) {
+    expect_no_more_than_the_operator("outage_300ms");
+}
+
+}  // namespace
+}  // namespace tactus::lossy_hands_test

@@ -1,0 +1,274 @@
+#include "shared/lossy_hands.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <memory>
+#include <utility>
+
+#include "core/tool/tool_shape.hpp"
+#include "devices/robot_tip.hpp"
+#include "network/link_emulator.hpp"
+#include "network/memory_link.hpp"
+#include "session/session.hpp"
+#include "session/side_plan.hpp"
+#include "shared/endpoints.hpp"
+#include "shared/meshes.hpp"
+#include "shared/random_values.hpp"
+
+namespace tactus::shared {
+
+namespace {
+
+constexpr Nanoseconds tick_length = 1'000'000;
+constexpr double radius = 0.01;  // of the fingertip, and half of the tool's height (unit: meters)
+constexpr int settled = 1000, longest_meeting = 20'000, runs_down = 6, rest = 300;  // (unit: ticks)
+
+class HandDevice final : public Device {
+public:
+    DeviceSample read(Nanoseconds) override {
+        return {position, Quat(1.0, 0.0, 0.0, 0.0), velocity, 0, true};
+    }
+    void write(Nanoseconds, const Vec3& given) override { force = given; }
+    DeviceCapabilities capabilities() const override {
+        DeviceCapabilities can;
+        can.rotates = true;
+        can.max_torque = 10.0;
+        return can;
+    }
+
+    Vec3 position{0.0, 0.18, 0.0};
+    Vec3 velocity{0.0};
+    Vec3 force{0.0};
+};
+
+// Its upper side is at y = 0.
+BodyAddition plate() {
+    BodyAddition made;
+    made.description.shapes = {PlacedShape{BoxShape{{0.5, 0.005, 0.5}}, Pose{}}};
+    made.description.pose.position = {0.0, -0.005, 0.0};
+    made.description.motion = Motion::Static;
+    made.touch_material = {500.0, 0.0, 0.5, 0.4};
+    return made;
+}
+
+SessionSettings room() {
+    SessionSettings settings;
+    settings.max_bodies = 16;
+    settings.max_parts = 64;
+    return settings;
+}
+
+Workspace workspace() {
+    Workspace workspace;
+    workspace.force_limit = 100.0;
+    return workspace;
+}
+
+TeleopSettings settings_of(LossyHand hand) {
+    TeleopSettings settings;
+    settings.deadband.enabled = true;
+    settings.robot = hand == LossyHand::robot;
+    return settings;
+}
+
+// Where the hand goes: a robot reaches less far, and is slower.
+struct Reach {
+    double high = 0.18, stop = 0.05, press = -0.01, speed = 0.7;
+};
+Reach motion_of(LossyHand hand) {
+    return hand == LossyHand::robot ? Reach{0.085, 0.05, 0.0, 0.35} : Reach{};
+}
+
+class LossyRun {
+public:
+    LossyRun(const LossyCase& one, std::uint64_t seed)
+        : one_(one),
+          random_(seed),
+          at_far_(wire_.second(), one.conditions, luck_of(seed, Way::to_teleoperator)),
+          at_near_(wire_.first(), one.conditions, luck_of(seed, Way::to_operator)) {
+        begin(near_, Side::operator_side, 1, at_near_, near_port_);
+        begin(far_, Side::teleoperator_side, 2, at_far_, far_port_);
+        add_hand(near_, device_);
+        one.hand == LossyHand::robot ? add_robot() : add_hand(far_, far_device_);
+        near_.settle();
+        far_.settle();
+    }
+
+    LossyFigures run() {
+        const Reach motion = motion_of(one_.hand);
+        const double low = one_.presses ? motion.press : motion.stop;
+        device_.position.y = motion.high;
+        // The two meet later where much is lost.
+        for (int i = 0; i < settled || (i < longest_meeting && height() < radius); ++i) {
+            tick();
+        }
+        figures_ = {};
+        for (int i = 0; i < runs_down; ++i) {
+            outage_from_ = static_cast<int>(random_.between(0.0, 400.0));
+            outage_to_ = i % 2 == 0 ? outage_from_ + static_cast<int>(1e3 * one_.outage) : 0;
+            since_ = 0;
+            draw(low, motion.speed);
+            draw(motion.high, motion.speed);
+            while (since_ < outage_to_ + (outage_to_ > 0 ? 1500 : 0)) {
+                tick();
+            }
+        }
+        figures_.agreed = near_port_->statistics.front().link.peer == PeerState::connected;
+        return figures_;
+    }
+
+private:
+    void begin(Session& session, Side side, std::uint64_t epoch, Link& link,
+               const std::shared_ptr<TeleopPort>& port) const {
+        const TeleopSettings settings = settings_of(one_.hand);
+        EndpointSettings end = endpoint(side, epoch);
+        end.scenario = scenario_of(settings);
+        const auto kind = side == Side::operator_side ? SidePlan::Kind::operator_side
+                          : settings.robot            ? SidePlan::Kind::robot
+                                                      : SidePlan::Kind::environment;
+        session.attach({{{kind, settings, end, OperatorRoom{}, {}}, &link, port}});
+        const SessionHandle handle = session.add_body(plate()).handle;
+        port->bindings.try_push({handle, handle});
+    }
+    void add_hand(Session& session, Device& device) const {
+        const SessionHandle made = session.add_device(device, workspace()).handle;
+        if (one_.hand == LossyHand::tool) {
+            ToolUse use;
+            use.device = made;
+            session.add_tool(make_tool_shape(box({0.015, radius, 0.015}), {1e-3, 200}).shape, use);
+        } else {
+            ProxyDescription pointer;
+            pointer.device = made;
+            pointer.settings.radius = radius;
+            session.add_proxy(pointer);
+        }
+    }
+    // Its tip is a hand of a place of its own, where the plate is real.
+    void add_robot() {
+        Workspace reach;
+        reach.pose.position = {0.0, 0.045, 0.0};
+        tip_ = std::make_unique<TipDevice>(exchange_);
+        place_ = std::make_unique<Session>(room());
+        place_->add_body(plate());
+        ProxyDescription pointer;
+        pointer.settings.radius = radius;
+        pointer.device = place_->add_device(*tip_, reach).handle;
+        place_->add_proxy(pointer);
+        RobotTable::Settings nothing;
+        nothing.height = -10.0;
+        robot_ = std::make_unique<EmulatedRobot>(EmulatedRobotSettings{},
+                                                 std::make_shared<TipSurroundings>(nothing, exchange_));
+        pointer.device = far_.add_device(*robot_, reach).handle;
+        far_.add_proxy(pointer);
+        place_->settle();
+    }
+
+    void draw(double to, double speed) {
+        const double from = device_.position.y;
+        const int ticks = static_cast<int>(1e3 * std::abs(to - from) / speed);
+        for (int i = 1; i <= ticks; ++i) {
+            device_.position.y = from + (to - from) * i / ticks;
+            device_.velocity.y = (to - from) * 1e3 / ticks;
+            tick();
+        }
+        device_.velocity.y = 0.0;
+        for (int i = 0; i < rest; ++i) {
+            tick();
+        }
+    }
+
+    void tick() {
+        now_ += tick_length;
+        const bool is_out = since_ >= outage_from_ && since_ < outage_to_;
+        if (is_out != std::exchange(was_out_, is_out)) {
+            LinkConditions conditions = one_.conditions;
+            conditions.loss = is_out ? 1.0 : conditions.loss;
+            at_far_.change(conditions);
+            at_near_.change(conditions);
+        }
+        ++since_;
+        for (Session* const session : {&near_, &far_, place_.get()}) {
+            if (session) {
+                session->tick(now_);
+                session->refresh();
+                session->collect();
+            }
+        }
+        near_port_->statistics.refresh();
+        far_port_->statistics.refresh();
+        note();
+    }
+
+    const SessionSnapshot& there() const { return (place_ ? *place_ : far_).snapshot(); }
+    bool is_tool() const { return one_.hand == LossyHand::tool; }
+    double height() const {  // of the far hand (unit: meters)
+        return is_tool() ? there().tools[0].pose.position.y : there().proxies[0].position.y;
+    }
+
+    void note() {
+        const double force = glm::length(is_tool() ? there().tools[0].force : there().proxies[0].force);
+        constexpr double no_force = 1e-3;
+        figures_.touches += !one_.presses && force > no_force && before_ <= no_force ? 1 : 0;
+        figures_.beyond += height() < 0.5 * radius ? 1 : 0;
+        figures_.far_force = std::max(figures_.far_force, force);
+        figures_.own_force = std::max(figures_.own_force, glm::length(device_.force));
+        before_ = force;
+    }
+
+    LossyCase one_;
+    RandomValues random_;
+    MemoryLinkPair wire_{8192};
+    LinkEmulator at_far_, at_near_;
+    std::shared_ptr<TeleopPort> near_port_ = std::make_shared<TeleopPort>();
+    std::shared_ptr<TeleopPort> far_port_ = std::make_shared<TeleopPort>();
+    std::shared_ptr<TipExchange> exchange_ = std::make_shared<TipExchange>();
+    HandDevice device_, far_device_;
+    std::unique_ptr<TipDevice> tip_;
+    std::unique_ptr<EmulatedRobot> robot_;
+    Session near_{room()}, far_{room()};
+    std::unique_ptr<Session> place_;  // of the robot
+    LossyFigures figures_;
+    double before_ = 0.0;
+    Nanoseconds now_ = 0;
+    int since_ = 0, outage_from_ = 0, outage_to_ = 0;  // since the hand began to go down (unit: ticks)
+    bool was_out_ = false;
+};
+
+}  // namespace
+
+std::vector<LossyCase> lossy_cases() {
+    LinkConditions usual;
+    usual.delay = from_seconds(0.025);
+    std::vector<LossyCase> cases;
+    const std::pair<LossyHand, const char*> hands[] = {
+        {LossyHand::fingertip, "fingertip"}, {LossyHand::tool, "tool"}, {LossyHand::robot, "robot"}};
+    for (const auto& [hand, name] : hands) {
+        for (const bool presses : {false, true}) {
+            const std::string begin = std::string(name) + (presses ? ".press." : ".stop.");
+            const auto add = [&](const std::string& what, const LinkConditions& conditions, double outage) {
+                cases.push_back({begin + what, hand, conditions, outage, presses});
+            };
+            for (const int percent : {0, 10, 20, 30, 50}) {
+                LinkConditions lossy = usual;
+                lossy.loss = 0.01 * percent;
+                add("loss_" + std::to_string(percent), lossy, 0.0);
+            }
+            for (const int length : {5, 20, 100}) {
+                LinkConditions lossy = usual;
+                lossy.burst = bursts(0.2, length);
+                add("bursts_" + std::to_string(length), lossy, 0.0);
+            }
+            for (const int milliseconds : {50, 100, 300, 1000, 2000, 5000}) {
+                add("outage_" + std::to_string(milliseconds) + "ms", usual, 1e-3 * milliseconds);
+            }
+        }
+    }
+    return cases;
+}
+
+LossyFigures run_lossy(const LossyCase& one, std::uint64_t seed) {
+    return LossyRun(one, seed).run();
+}
+
+}  // namespace tactus::shared
