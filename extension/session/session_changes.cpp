@@ -482,20 +482,28 @@ bool SessionLoop::carry_out(command::SetProxy& c, Retired&) {
     return false;
 }
 
+SessionLoop::HandSlot SessionLoop::hand_slot(SessionHandle hand) {
+    if (hand < max_proxies) {
+        return {&proxies_[hand], nullptr};
+    }
+    return {nullptr, hand < hand_of_tool(max_tools) ? tools_[hand - max_proxies].get() : nullptr};
+}
+
 bool SessionLoop::carry_out(command::SetField& c, Retired&) {
-    if (c.handle < max_proxies) {
-        proxies_[c.handle].field.set(c.moment);
-    } else if (ToolSlot* const slot = tools_[c.handle - max_proxies].get()) {
-        slot->field.set(c.moment);
+    const HandSlot hand = hand_slot(c.handle);
+    if (hand.proxy != nullptr) {
+        hand.proxy->field.set(c.moment);
+    } else if (hand.tool != nullptr) {
+        hand.tool->field.set(c.moment);
     }
     return false;
 }
 
 // They are moved evenly from where they were, so that no force jumps.
 bool SessionLoop::carry_out(command::SetGuideFrames& c, Retired&) {
-    ToolSlot* const tool = c.handle >= max_proxies ? tools_[c.handle - max_proxies].get() : nullptr;
-    HandAids* const aids = c.handle < max_proxies ? &proxies_[c.handle].description.aids
-                           : tool != nullptr      ? &tool->use.aids
+    const HandSlot hand = hand_slot(c.handle);
+    HandAids* const aids = hand.proxy != nullptr  ? &hand.proxy->description.aids
+                           : hand.tool != nullptr ? &hand.tool->use.aids
                                                   : nullptr;
     for (std::size_t i = 0; aids != nullptr && i < c.frames.size(); ++i) {
         aids->guides[i].frame = c.frames[i];

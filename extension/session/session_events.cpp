@@ -91,7 +91,7 @@ void SessionLoop::note_breaks(ProxySlot& slot) const {
 }
 
 // Of a proxy, or of a tool. False where there is none.
-bool SessionLoop::describe_hand(SessionHandle hand, SessionRecord& row) const {
+bool SessionLoop::describe_hand(SessionHandle hand, SessionRecord& row) {
     const auto take = [&](const auto& state, const Vec3& goal, const Vec3& position) {
         row.proxy = hand;
         row.hand = goal;
@@ -101,15 +101,13 @@ bool SessionLoop::describe_hand(SessionHandle hand, SessionRecord& row) const {
         row.contacts = static_cast<std::uint32_t>(state.contact_count);
     };
     SessionHandle device = no_handle;
-    if (hand < max_proxies && proxies_[hand].proxy) {
-        const ProxySlot& slot = proxies_[hand];
-        take(slot.state, slot.state.hand, slot.state.position);
-        device = slot.description.device;
-    } else if (const ToolSlot* const slot = hand >= max_proxies && hand < hand_of_tool(max_tools)
-                                                ? tools_[hand - max_proxies].get()
-                                                : nullptr) {
-        take(slot->state, slot->state.hand.position, slot->state.pose.position);
-        device = slot->use.device;
+    const auto [proxy, tool] = hand_slot(hand);
+    if (proxy != nullptr && proxy->proxy) {
+        take(proxy->state, proxy->state.hand, proxy->state.position);
+        device = proxy->description.device;
+    } else if (tool != nullptr) {
+        take(tool->state, tool->state.hand.position, tool->state.pose.position);
+        device = tool->use.device;
     } else {
         return false;
     }

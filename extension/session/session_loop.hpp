@@ -365,7 +365,13 @@ private:
     void step_soft();
     void guess();
     void publish(Nanoseconds now);
-    bool describe_hand(SessionHandle hand, SessionRecord& row) const;
+    bool describe_hand(SessionHandle hand, SessionRecord& row);
+    // One of them at most. Neither: there is no such hand.
+    struct HandSlot {
+        ProxySlot* proxy = nullptr;
+        ToolSlot* tool = nullptr;
+    };
+    HandSlot hand_slot(SessionHandle hand);
     void append_record(const Recording& recording, Nanoseconds now, Nanoseconds late);
     void describe(ProxySlot& slot, const ProxyTick& tick);
     void note_events();

@@ -108,15 +108,9 @@ class GridGame:
 	extends Game
 
 	func _init() -> void:
-		var library := MeshLibrary.new()
-		library.create_item(0)
-		library.set_item_shapes(0, [Parts.box(Vector3.ONE), Transform3D()])
-		var grid := GridMap.new()
-		grid.mesh_library = library
-		grid.cell_size = Vector3.ONE
+		var grid := Parts.tiles(6)
 		for x in range(-6, 6):
 			for z in range(-6, 6):
-				grid.set_cell_item(Vector3i(x, -1, z), 0)
 				if absi(2 * x + 1) == 11 or absi(2 * z + 1) == 11 or (x % 4 == 1 and z % 3 == 1):
 					grid.set_cell_item(Vector3i(x, 0, z), 0)
 		put(grid, "Level")

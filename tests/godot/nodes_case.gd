@@ -52,6 +52,20 @@ static func sphere(radius: float) -> SphereShape3D:
 	return shape
 
 
+## Tiles of one meter, whose upper surface is at y = 0: so many to each side of the middle.
+static func tiles(to_each_side: int) -> GridMap:
+	var library := MeshLibrary.new()
+	library.create_item(0)
+	library.set_item_shapes(0, [box(Vector3.ONE), Transform3D()])
+	var grid := GridMap.new()
+	grid.mesh_library = library
+	grid.cell_size = Vector3.ONE
+	for x in range(-to_each_side, to_each_side):
+		for z in range(-to_each_side, to_each_side):
+			grid.set_cell_item(Vector3i(x, -1, z), 0)
+	return grid
+
+
 ## A floor whose surface is at y = 0.
 func add_floor(world: HapticWorld, stiffness := 500.0) -> StaticBody3D:
 	var body := with_shape(StaticBody3D.new(), box(Vector3(2, 0.2, 2)), Vector3(0, -0.1, 0)) as StaticBody3D

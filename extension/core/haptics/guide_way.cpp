@@ -10,8 +10,6 @@ namespace tactus {
 
 namespace {
 
-constexpr double farthest_on_way = 1e9;  // (unit: meters)
-
 std::size_t blocks_of(std::size_t points) {
     return points < 2 ? 0 : (points - 2) / GuideWay::block + 1;
 }
@@ -43,6 +41,20 @@ std::shared_ptr<const GuideWay> GuideWay::of(std::vector<Vec3> points) {
     return way;
 }
 
+bool is_guide_place(const Vec3& place) {
+    const Vec3 size = glm::abs(place);
+    return size.x <= farthest_guide && size.y <= farthest_guide && size.z <= farthest_guide;
+}
+
+std::string check_guide_points(std::span<const Vec3> points) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (!is_guide_place(points[i])) {
+            return "point " + std::to_string(i) + " of the guide is not a place within 1e9 m: set it anew";
+        }
+    }
+    return {};
+}
+
 std::string check_way(const GuideWay& way) {
     if (way.points.size() < 2) {
         return "the guide has too few points: give a point one, a line or a way two, a plane three";
@@ -50,11 +62,8 @@ std::string check_way(const GuideWay& way) {
     if (way.points.size() > GuideWay::most) {
         return "a guide has at most 4096 points: leave some out, or use several";
     }
-    for (std::size_t i = 0; i < way.points.size(); ++i) {
-        const Vec3 size = glm::abs(way.points[i]);
-        if (!(size.x <= farthest_on_way && size.y <= farthest_on_way && size.z <= farthest_on_way)) {
-            return "point " + std::to_string(i) + " of the guide is not a place within 1e9 m: set it anew";
-        }
+    if (std::string problem = check_guide_points(way.points); !problem.empty()) {
+        return problem;
     }
     if (way.blocks != GuideWay::of(way.points)->blocks) {
         return "the blocks of the guide are not those of its points: make it of its points again";

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,13 @@ struct GuideWay {
     // Of any points: whether it can be followed is for check_way() to say.
     static std::shared_ptr<const GuideWay> of(std::vector<Vec3> points);
 };
+
+// Where a guide can be (unit: meters).
+inline constexpr double farthest_guide = 1e9;
+bool is_guide_place(const Vec3& place);
+
+// Empty where a guide can be at all of them; otherwise what is wrong and what to do.
+std::string check_guide_points(std::span<const Vec3> points);
 
 // Empty where it can be followed; otherwise what is wrong and what to do.
 std::string check_way(const GuideWay& way);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <span>
 
 namespace tactus {
 
@@ -12,7 +13,6 @@ namespace {
 using Form = HandGuide::Form;
 
 constexpr double least_length = 1e-6;  // between two points that show a direction (unit: meters)
-constexpr double farthest = 1e9;       // (unit: meters)
 constexpr double stiffest = 1e6;       // (unit: newtons per meter)
 
 std::size_t points_needed(Form form) {
@@ -24,24 +24,18 @@ Vec3 across(const HandGuide& guide) {
     return glm::cross(guide.points[1] - guide.points[0], guide.points[2] - guide.points[0]);
 }
 
-bool is_near(const Vec3& place) {
-    const Vec3 size = glm::abs(place);
-    return size.x <= farthest && size.y <= farthest && size.z <= farthest;
-}
-
 bool is_frame(const Pose& frame) {
     const Quat& q = frame.rotation;
-    return is_near(frame.position) && std::abs(glm::dot(q, q) - 1.0) < 1e-6;
+    return is_guide_place(frame.position) && std::abs(glm::dot(q, q) - 1.0) < 1e-6;
 }
 
 std::string check_points(const HandGuide& guide) {
     if (guide.count > HandGuide::max_points || guide.count < points_needed(guide.form)) {
         return "the guide has too few points: give a point one, a line or a way two, a plane three";
     }
-    for (std::size_t i = 0; i < guide.count; ++i) {
-        if (!is_near(guide.points[i])) {
-            return "point " + std::to_string(i) + " of the guide is not a place within 1e9 m: set it anew";
-        }
+    const std::span<const Vec3> points(guide.points);
+    if (std::string problem = check_guide_points(points.first(guide.count)); !problem.empty()) {
+        return problem;
     }
     if (guide.form == Form::line && glm::distance(guide.points[0], guide.points[1]) < least_length) {
         return "the two points of the guide's line are one place: move one of them away";
@@ -62,7 +56,7 @@ bool is_same_guide(const HandGuide& a, const HandGuide& b) {
 
 std::string check_guide(const HandGuide& guide) {
     if (!(guide.stiffness >= 0.0 && guide.stiffness <= stiffest) ||
-        !(guide.range > 0.0 && guide.range <= farthest)) {
+        !(guide.range > 0.0 && guide.range <= farthest_guide)) {
         return "the guide's stiffness is below 0 or its range is no positive length: set them anew";
     }
     if (!is_frame(guide.frame)) {
