@@ -33,10 +33,12 @@ public:
 
 private:
     void look(godot::PhysicsDirectSpaceState3D& space, const Vec3& hand, double radius);
+    bool set_crowds_apart(const std::vector<CloseShape>& shapes);
 
     godot::Ref<godot::SphereShape3D> sphere_;  // null until it is needed
     godot::Ref<godot::PhysicsShapeQueryParameters3D> query_;
     std::vector<CloseShape> found_;
+    godot::TypedArray<godot::RID> crowds_;  // bodies that are found already, and often
     bool is_full_ = false;
 };
 

@@ -46,16 +46,7 @@ func _server_body(shape: RID, mode := PhysicsServer3D.BODY_MODE_STATIC, at := Ve
 
 func test_a_grid_map() -> void:
 	var world := _world()
-	var library := MeshLibrary.new()
-	library.create_item(0)
-	library.set_item_shapes(0, [box(Vector3.ONE), Transform3D()])
-	var grid := GridMap.new()
-	grid.mesh_library = library
-	grid.cell_size = Vector3.ONE
-	for x in range(-20, 20):
-		for z in range(-20, 20):
-			grid.set_cell_item(Vector3i(x, -1, z), 0)
-	grid.position.y = 0.0
+	var grid := tiles(20)
 	world.add_child(grid)
 	var proxy := _add_pressing_hand(world)
 	await _play(world, 1.0)
@@ -181,6 +172,28 @@ func test_a_bone() -> void:
 	await _play(world, 1.0)
 	check_near(bone.global_position.y, -0.06, 0.03, "height")
 	check_equal(world.get_problems(), PackedStringArray(), "problems")
+
+
+## Godot's Jolt finds a mesh once for each of its triangles.
+func test_meshes_of_many_triangles_hide_nothing_that_is_close() -> void:
+	var world := _world()
+	var plane := PlaneMesh.new()
+	plane.subdivide_depth = 150
+	plane.subdivide_width = 150
+	world.add_child(with_shape(StaticBody3D.new(), plane.create_trimesh_shape(), Vector3(0, -0.02, 0)))
+	var ball := SoftBody3D.new()
+	ball.mesh = SphereMesh.new()
+	ball.position.y = -0.3
+	add_child(ball)
+	var shape := PhysicsServer3D.box_shape_create()
+	PhysicsServer3D.shape_set_data(shape, Vector3.ONE * 0.05)
+	var body := _server_body(shape, PhysicsServer3D.BODY_MODE_STATIC, Vector3(0, -0.05, 0))
+	var proxy := _add_pressing_hand(world)
+	await _play(world, 1.0)
+	_check_pressed(proxy, null)
+	check_equal(world.get_problems(), PackedStringArray(), "problems")
+	PhysicsServer3D.free_rid(body)
+	PhysicsServer3D.free_rid(shape)
 
 
 ## Also what stands far from hands, or belongs to a node that is not below the world.

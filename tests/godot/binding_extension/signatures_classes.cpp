@@ -365,6 +365,8 @@ void list_classes() {
     same<void (PhysicsServer3D::*)(const RID&, const Vector3&)>(&PhysicsServer3D::body_apply_central_impulse);
     same<void (PhysicsServer3D::*)(const RID&, const Vector3&)>(&PhysicsServer3D::body_apply_torque_impulse);
 
+    same<void (PhysicsShapeQueryParameters3D::*)(const TypedArray<RID>&)>(
+        &PhysicsShapeQueryParameters3D::set_exclude);
     same<void (PhysicsShapeQueryParameters3D::*)(const Ref<Resource>&)>(
         &PhysicsShapeQueryParameters3D::set_shape);
     same<void (PhysicsShapeQueryParameters3D::*)(const Transform3D&)>(

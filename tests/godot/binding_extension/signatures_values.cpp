@@ -236,6 +236,7 @@ void list_values() {
     constructor<Variant, const PackedByteArray&>();
     constructor<Variant, const PackedFloat64Array&>();
     constructor<Variant, const PackedInt32Array&>();
+    constructor<Variant, const RID&>();
     constructor<Variant, const PackedVector3Array&>();
     constructor<Variant, const String&>();
     constructor<Variant, const StringName&>();
