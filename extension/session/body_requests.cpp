@@ -189,7 +189,8 @@ void Session::correct_body(SessionHandle body, const BodyCorrection& correction)
     const BodyCorrection& c = correction;
     if (limits::is_pose({c.by, {1.0, 0.0, 0.0, 0.0}}) && limits::is_number(c.turn) && c.seconds >= 0.0 &&
         c.seconds <= max_seconds && limits::is_number(c.linear) && limits::is_number(c.angular) &&
-        limits::is_number(c.acceleration) && limits::is_number(c.spin_up)) {
+        limits::is_number(c.acceleration) && limits::is_number(c.spin_up) && c.mass > 0.0 &&
+        std::isfinite(c.mass)) {
         impl_->send(command::CorrectBody{body, correction});
     }
 }

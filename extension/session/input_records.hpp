@@ -344,7 +344,7 @@ inline constexpr int members<command::TeleportBody> = 3;
 template <>
 inline constexpr int members<command::ShiftBody> = 3;
 template <>
-inline constexpr int members<BodyCorrection> = 7;
+inline constexpr int members<BodyCorrection> = 8;
 template <>
 inline constexpr int members<command::LeadBody> = 2;
 template <>

@@ -19,7 +19,9 @@ SessionLoop::Led* SessionLoop::led(SessionHandle handle) {
 
 bool SessionLoop::carry_out(command::LeadBody& c, Retired&) {
     if (!c.led) {
-        std::erase_if(led_, [&c](const Led& one) { return one.state.handle == c.handle; });
+        if (std::erase_if(led_, [&c](const Led& one) { return one.state.handle == c.handle; }) > 0) {
+            set_factors(c.handle, {});
+        }
     } else if (body(c.handle) && !led(c.handle) && led_.size() < max_led) {
         led_.push_back({});
         led_.back().state.handle = c.handle;
@@ -46,6 +48,8 @@ bool SessionLoop::carry_out(command::CorrectBody& c, Retired&) {
         physics_.set_velocity(bodies_[c.handle].id, now.linear_velocity + correction.linear,
                               now.angular_velocity + correction.angular);
     }
+    one->state.corrected.mass = correction.mass;
+    set_factors(c.handle, {.mass = correction.mass});
     if (correction.seconds == 0.0) {
         put_right_at_once(*one);
     }
@@ -128,6 +132,7 @@ void SessionLoop::note_led() {
         one.state.way += one.state.motion.linear_velocity * seconds_;
         one.state.turned += one.state.motion.angular_velocity * seconds_;
         one.state.seconds += seconds_;
+        one.state.mass = physics_.mass(bodies_[one.state.handle].id);
     }
 }
 

@@ -111,6 +111,7 @@ struct BodyCorrection {
     Vec3 angular{0.0};       // and to its spin (unit: radians per second)
     Vec3 acceleration{0.0};  // from now on, besides its physics (unit: meters per square second)
     Vec3 spin_up{0.0};       // and of its spin (unit: radians per square second)
+    double mass = 1.0;       // from now on, of its own mass and inertia (dimensionless), > 0
 };
 
 // A led body after a tick. Sums run since it is led, and say nothing where it is not Motion::Dynamic.
@@ -123,7 +124,9 @@ struct LedState {
     // radians).
     Vec3 way{0.0}, turned{0.0};
     double seconds = 0.0;  // in which they did
-    // Of all corrections, what has been carried out: sums of BodyCorrection's by, turn, linear and angular.
+    double mass = 0.0;     // (unit: kilograms)
+    // Of all corrections, what has been carried out: sums of BodyCorrection's by, turn, linear and angular,
+    // and the last mass.
     BodyCorrection corrected;
 };
 

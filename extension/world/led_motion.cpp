@@ -54,6 +54,14 @@ void LedMotion::note_unknown(const BodyCorrection& correction, double seconds) {
         spin_up_, agreed(unknown_spin, std::exchange(unknown_spin_, unknown_spin), least_spin_up));
 }
 
+// The model as it was one frame ago had been pushed by what the engine's body shows now.
+void LedMotion::note_mass(const BodyCorrection& correction, double seconds) {
+    if (before_.mass > 0.0) {
+        const Vec3 besides = correction.linear + pull_before_ * seconds;
+        mass_.note(pushed_, besides + pushed_ / before_.mass, before_.mass / before_.corrected.mass);
+    }
+}
+
 // Where the model is that has come as far as the engine's body.
 BodyMotion LedMotion::without_lead(const BodyMotion& body, double lead) const {
     const Vec3 by = lead * body.linear_velocity + ahead_;
@@ -93,10 +101,16 @@ LedMotion::Frame LedMotion::frame(const BodyMotion& engines, const LedState& mod
             glm::length(correction.turn) > farthest_turn;
         correction.seconds = was_put_there ? 0.0 : seconds;
         const Vec3 pull = pull_, spin_up = spin_up_;
+        const double mass = mass_.factor();
+        const bool is_even = std::abs(late_) < 0.5 * seconds;  // else pushes of several frames come in one
+        if (!was_put_there && is_even) {
+            note_mass(correction, seconds);
+        }
         note_unknown(correction, seconds);
+        correction.mass = mass_.factor();
         correction.acceleration = pull_;
         correction.spin_up = spin_up_;
-        frame.corrects = pull_ != pull || spin_up_ != spin_up ||
+        frame.corrects = pull_ != pull || spin_up_ != spin_up || mass_.factor() != mass ||
                          glm::length(correction.by) + glm::length(correction.turn) +
                                  glm::length(correction.linear) + glm::length(correction.angular) >
                              0.0;
@@ -107,6 +121,7 @@ LedMotion::Frame LedMotion::frame(const BodyMotion& engines, const LedState& mod
         note_lead(model, seconds, tick);
     }
     before_ = model;
+    pushed_ = frame.impulse;
     return frame;
 }
 

@@ -22,10 +22,14 @@
 // know: a spring, a wheel, a script. What two frames agree on of it acts on the model from then on; what only
 // one says, an impulse, does not.
 //
+// The part of e that goes with what hands gave is no acceleration but another mass (seen_mass.hpp). As an
+// acceleration it would come two frames late, and make a body swing between two fingers.
+//
 // Plain values.
 #pragma once
 
 #include "session/session_types.hpp"
+#include "world/seen_mass.hpp"
 
 namespace tactus {
 
@@ -50,6 +54,7 @@ public:
 private:
     BodyMotion expected() const;
     void note_unknown(const BodyCorrection& correction, double seconds);
+    void note_mass(const BodyCorrection& correction, double seconds);
     void note_lead(const LedState& model, double seconds, double tick);
     BodyMotion without_lead(const BodyMotion& body, double lead) const;
 
@@ -60,6 +65,8 @@ private:
     double late_ = 0.0;                  // the engine's time is so far ahead of the model's (unit: seconds)
     Vec3 given_{0.0};                    // to the engine's body so far
     Vec3 given_turn_{0.0};               // angular
+    Vec3 pushed_{0.0};                   // of given_, in the last frame
+    SeenMass mass_;
     Vec3 pull_{0.0},
         pull_before_{0.0};  // the model has been accelerated by since the last frame, the one before
     Vec3 spin_up_{0.0}, spin_up_before_{0.0};

@@ -239,32 +239,35 @@ TEST(LedMotion, AForceThatChangesWithinAFrameIsNoErrorOfTheModel) {
 }
 
 // A body between springs, as between two stiff fingers: a model of 1 kHz and an engine that has its impulses.
-// `ticks`: of the model after each frame, over and over. `pulse`: radians per second.
+// `ticks`: of the model after each frame, over and over. `pulse`: radians per second. `heavier`: the engine's
+// body than the model was told.
 // Returns how far the model swings in its last second, of where it began.
-double swing(double frames_a_second, double pulse, const std::vector<int>& ticks) {
+double swing(double frames_a_second, double pulse, const std::vector<int>& ticks, double heavier = 1.0) {
     constexpr double tick = 1e-3, start = 1e-3;
     const double frame_seconds = 1.0 / frames_a_second;
     LedMotion led;
     LedState model;
+    model.mass = model.corrected.mass = 1.0;
     BodyMotion engine;
     model.motion.pose.position.x = engine.pose.position.x = start;
     Vec3 left(0.0), given(0.0);
     double farthest = 0.0;
     for (std::size_t i = 0; model.seconds < 4.0; ++i) {
-        engine.linear_velocity += std::exchange(given, Vec3(0.0));
+        engine.linear_velocity += std::exchange(given, Vec3(0.0)) / heavier;
         engine.pose.position += engine.linear_velocity * (i == 0 ? 0.0 : frame_seconds);
         const LedMotion::Frame frame = led.frame(engine, model, frame_seconds, tick);
         given = frame.impulse;
         left += frame.correction.by;
         model.motion.linear_velocity += frame.correction.linear;
         model.corrected.linear += frame.correction.linear;
+        model.mass = model.corrected.mass = frame.correction.mass;
         for (int k = 0; k < ticks[i % ticks.size()]; ++k) {
             const Vec3 by = left * (tick / frame_seconds);
             left -= by;
             model.corrected.by += by;
             const Vec3 force = -pulse * pulse * (model.motion.pose.position + by);
             model.impulse += force * tick;
-            model.motion.linear_velocity += force * tick;
+            model.motion.linear_velocity += (force / model.mass + frame.correction.acceleration) * tick;
             model.way += model.motion.linear_velocity * tick;
             model.seconds += tick;
             model.motion.pose.position += by + model.motion.linear_velocity * tick;
@@ -288,6 +291,15 @@ TEST(LedMotion, ABodySwingsNoFartherWhereFramesComeUnevenly) {
     EXPECT_LT(swing(60.0, 50.0, {14, 21, 14, 21, 14, 14}), 1.5) << "a screen of 144 Hz";
     EXPECT_LT(swing(120.0, 100.0, {17, 0, 16, 0, 17, 0}), 1.5) << "a screen of 60 Hz";
     EXPECT_LT(swing(60.0, 50.0, {50, 0, 0}), 1.5) << "a screen of 20 Hz";
+}
+
+// While the mass is found out it swings somewhat farther.
+TEST(LedMotion, ABodyThatIsHeavierThanItIsToldSwingsNoFarther) {
+    for (const double heavier : {1.5, 3.0}) {
+        EXPECT_LT(swing(60.0, 50.0, {17, 17, 16}, heavier), 5.0) << heavier;
+        EXPECT_LT(swing(60.0, 100.0, {17, 17, 16}, heavier), 5.0) << heavier;
+        EXPECT_LT(swing(120.0, 100.0, {8, 8, 9}, heavier), 5.0) << heavier;
+    }
 }
 
 TEST(LedMotion, FramesInBurstsKickNoHand) {

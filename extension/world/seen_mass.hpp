@@ -1,0 +1,35 @@
+// The mass of a body that an engine moves, from what pushes change of its velocity: another body may hang on
+// it that only the engine knows, or a wall stand behind it.
+//
+// A push of impulse p changes the velocity by p / m, and other forces by something besides. So 1 / m is the
+// slope of the line through the last frames' changes over their impulses (least squares that forget), where
+// they are on a line.
+//
+// Plain values.
+#pragma once
+
+#include "core/math/types.hpp"
+
+namespace tactus {
+
+class SeenMass {
+public:
+    // Farther from the told mass than this it is not believed to be (dimensionless).
+    static constexpr double least_factor = 0.5;
+    static constexpr double most_factor = 10.0;
+
+    // Of a frame. `change`: of the engine's velocity (unit: meters per second). `told`: the mass that the
+    // body is said to have (unit: kilograms), > 0.
+    void note(const Vec3& impulse, const Vec3& change, double told);
+
+    // How often the told mass it is: 1 until it is pushed unevenly. Moves in steps that a hand notices.
+    double factor() const { return factor_; }
+
+private:
+    double count_ = 0.0;
+    Vec3 impulse_{0.0}, change_{0.0};                              // means
+    double of_impulses_ = 0.0, of_both_ = 0.0, of_changes_ = 0.0;  // sums of squares and products about them
+    double factor_ = 1.0;
+};
+
+}  // namespace tactus

@@ -1,0 +1,48 @@
+#include "world/seen_mass.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace tactus::seen_mass_test {
+namespace {
+
+constexpr double told = 0.5;  // (unit: kilograms)
+
+// Of a hand that presses unevenly, beside a steady force.
+SeenMass seen(double mass, double steady) {
+    SeenMass found;
+    for (int i = 0; i < 60; ++i) {
+        const Vec3 impulse(0.02 + 0.01 * std::sin(0.3 * i), 0.0, 0.0);  // (unit: newton seconds)
+        found.note(impulse, impulse / mass + Vec3(steady, 0.0, 0.0), told);
+    }
+    return found;
+}
+
+TEST(SeenMass, IsThatWhichPushesMove) {
+    for (const double factor : {0.6, 1.0, 2.0, 5.0}) {
+        EXPECT_NEAR(seen(factor * told, 0.0).factor(), factor, 0.11 * factor) << factor;
+        EXPECT_NEAR(seen(factor * told, -0.1).factor(), factor, 0.11 * factor) << factor;
+    }
+}
+
+// As where a spring of the engine holds the body against a hand that rests.
+TEST(SeenMass, ASteadyPushTellsNothing) {
+    SeenMass found;
+    for (int i = 0; i < 60; ++i) {
+        found.note({0.02, 0.0, 0.0}, Vec3(0.0), told);
+    }
+    EXPECT_EQ(found.factor(), 1.0);
+}
+
+// A wall behind it.
+TEST(SeenMass, IsBoundedWhereNothingMoves) {
+    SeenMass found;
+    for (int i = 0; i < 60; ++i) {
+        found.note({i % 2 == 0 ? 0.02 : 0.01, 0.0, 0.0}, Vec3(0.0), told);
+    }
+    EXPECT_EQ(found.factor(), SeenMass::most_factor);
+}
+
+}  // namespace
+}  // namespace tactus::seen_mass_test
