@@ -14,9 +14,10 @@ namespace tactus {
 
 class SeenMass {
 public:
-    // Farther from the told mass than this it is not believed to be (dimensionless).
-    static constexpr double least_factor = 0.5;
-    static constexpr double most_factor = 10.0;
+    // What hangs on a body only makes it heavier than the engine says. Scattered pushes once told factors
+    // of 0.5 and 10, and a pinched box was thrown away (dimensionless).
+    static constexpr double least_factor = 1.0;
+    static constexpr double most_factor = 4.0;
 
     // Of a frame. `change`: of the engine's velocity (unit: meters per second). `told`: the mass that the
     // body is said to have (unit: kilograms), > 0.

@@ -20,10 +20,14 @@ SeenMass seen(double mass, double steady) {
 }
 
 TEST(SeenMass, IsThatWhichPushesMove) {
-    for (const double factor : {0.6, 1.0, 2.0, 5.0}) {
+    for (const double factor : {1.0, 2.0, 3.5}) {
         EXPECT_NEAR(seen(factor * told, 0.0).factor(), factor, 0.11 * factor) << factor;
         EXPECT_NEAR(seen(factor * told, -0.1).factor(), factor, 0.11 * factor) << factor;
     }
+}
+
+TEST(SeenMass, IsNeverLessThanTheEngineSays) {
+    EXPECT_EQ(seen(0.6 * told, 0.0).factor(), 1.0);
 }
 
 // As where a spring of the engine holds the body against a hand that rests.
