@@ -52,6 +52,8 @@ const NANOSECOND := 1e-9
 
 ## To find the far side, in seconds.
 const LONGEST_MEETING := 30.0
+## From the last description of a body until the teleoperator's count of them (unit: seconds).
+const LAST_WORD := 0.3
 
 var _link_options := {}
 var _device_options := {}
@@ -397,6 +399,10 @@ func _meet(link: MMTLink, device: HapticDevice) -> bool:
 	while not link.is_peer_connected() or link.get_statistics().objects < bodies:
 		if Time.get_ticks_msec() > deadline or link.get_state() == MMTLink.STATE_LEFT:
 			return false
+		await get_tree().process_frame
+	# The operator's hand is held until the teleoperator has said that nothing more comes.
+	await get_tree().create_timer(LAST_WORD).timeout
+	while link.get_state_text().contains("touch nothing until"):
 		await get_tree().process_frame
 	if _way != null:
 		device.path = _way
