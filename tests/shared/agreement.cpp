@@ -12,6 +12,7 @@
 #include "session/side_plan.hpp"
 #include "shared/endpoints.hpp"
 #include "shared/meshes.hpp"
+#include "shared/turning_hand.hpp"
 
 namespace tactus::shared {
 
@@ -19,23 +20,6 @@ namespace {
 
 constexpr Nanoseconds period = 1'000'000;
 constexpr int meeting = 1500, playing = 1500, settling = 300;  // (unit: ticks)
-
-class StillDevice final : public Device {
-public:
-    DeviceSample read(Nanoseconds) override {
-        return {position, Quat(1.0, 0.0, 0.0, 0.0), Vec3(0.0), 0, true};
-    }
-    void write(Nanoseconds, const Vec3& given) override { force = given; }
-    DeviceCapabilities capabilities() const override {
-        DeviceCapabilities can;
-        can.rotates = true;
-        can.max_torque = 10.0;
-        return can;
-    }
-
-    Vec3 position{0.0, 0.1, 0.0};
-    Vec3 force{0.0};
-};
 
 TeleopSettings settings_of(const AgreementSide& side) {
     TeleopSettings settings;
@@ -101,7 +85,7 @@ public:
         return !explain(told.disagreement, told.own_terms, told.peer_terms, which).empty();
     }
 
-    StillDevice device;
+    TurningHand device;
     std::shared_ptr<TeleopPort> port = std::make_shared<TeleopPort>();
     Session session;
 

@@ -15,6 +15,7 @@
 #include "shared/endpoints.hpp"
 #include "shared/meshes.hpp"
 #include "shared/random_values.hpp"
+#include "shared/turning_hand.hpp"
 
 namespace tactus::shared {
 
@@ -23,24 +24,6 @@ namespace {
 constexpr Nanoseconds tick_length = 1'000'000;
 constexpr double radius = 0.01;  // of the fingertip, and half of the tool's height (unit: meters)
 constexpr int settled = 1000, longest_meeting = 20'000, runs_down = 6, rest = 300;  // (unit: ticks)
-
-class HandDevice final : public Device {
-public:
-    DeviceSample read(Nanoseconds) override {
-        return {position, Quat(1.0, 0.0, 0.0, 0.0), velocity, 0, true};
-    }
-    void write(Nanoseconds, const Vec3& given) override { force = given; }
-    DeviceCapabilities capabilities() const override {
-        DeviceCapabilities can;
-        can.rotates = true;
-        can.max_torque = 10.0;
-        return can;
-    }
-
-    Vec3 position{0.0, 0.18, 0.0};
-    Vec3 velocity{0.0};
-    Vec3 force{0.0};
-};
 
 // Its upper side is at y = 0.
 BodyAddition plate() {
@@ -87,6 +70,7 @@ public:
           random_(seed),
           at_far_(wire_.second(), one.conditions, luck_of(seed, Way::to_teleoperator)),
           at_near_(wire_.first(), one.conditions, luck_of(seed, Way::to_operator)) {
+        device_.position.y = far_device_.position.y = Reach{}.high;
         begin(near_, Side::operator_side, 1, at_near_, near_port_);
         begin(far_, Side::teleoperator_side, 2, at_far_, far_port_);
         add_hand(near_, device_);
@@ -223,7 +207,7 @@ private:
     std::shared_ptr<TeleopPort> near_port_ = std::make_shared<TeleopPort>();
     std::shared_ptr<TeleopPort> far_port_ = std::make_shared<TeleopPort>();
     std::shared_ptr<TipExchange> exchange_ = std::make_shared<TipExchange>();
-    HandDevice device_, far_device_;
+    TurningHand device_, far_device_;
     std::unique_ptr<TipDevice> tip_;
     std::unique_ptr<EmulatedRobot> robot_;
     Session near_{room()}, far_{room()};

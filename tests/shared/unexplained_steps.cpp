@@ -15,6 +15,7 @@
 #include "session/side_plan.hpp"
 #include "shared/endpoints.hpp"
 #include "shared/meshes.hpp"
+#include "shared/turning_hand.hpp"
 
 namespace tactus::shared {
 
@@ -26,25 +27,6 @@ constexpr int measured = 4000;  // (unit: ticks)
 constexpr int first_change = 500;
 // By then both know who has gone or come (unit: ticks).
 constexpr int longest_word = 1000;
-
-class HandDevice final : public Device {
-public:
-    DeviceSample read(Nanoseconds) override {
-        return {position, Quat(1.0, 0.0, 0.0, 0.0), velocity, 0, connected};
-    }
-    void write(Nanoseconds, const Vec3& given) override { force = given; }
-    DeviceCapabilities capabilities() const override {
-        DeviceCapabilities can;
-        can.rotates = true;
-        can.max_torque = 10.0;
-        return can;
-    }
-
-    Vec3 position{0.0, 0.1, 0.0};
-    Vec3 velocity{0.0};
-    Vec3 force{0.0};
-    bool connected = true;
-};
 
 BodyAddition floor_below() {
     BodyAddition made;
@@ -168,7 +150,7 @@ private:
     StillCase one_;
 
 public:
-    HandDevice device;
+    TurningHand device;
     std::shared_ptr<TeleopPort> port = std::make_shared<TeleopPort>();
     Session session;
 
