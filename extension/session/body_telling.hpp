@@ -35,9 +35,12 @@ public:
     // What queues on the way there is descriptions, which can be told more slowly.
     bool yields() const { return bulk_.can_yield(); }
     const DiscoveryCounts& counts() const { return discovery_.counts(); }
-    // Whether this start of the operator has had all bodies that were there then. Bodies that come later, or
-    // are described anew again and again, change nothing of it.
-    bool is_whole() const { return counts().unanswered == 0; }
+    // A hand presses nothing until this start of the operator has had all bodies that were there then, or its
+    // model would lack what is pressed. Bodies that come later, or are described anew again and again, change
+    // nothing of it.
+    bool may_press(const Channel& channel, std::size_t hand) const {
+        return (channel.settings().traditional || counts().unanswered == 0) && channel.works_together(hand);
+    }
 
 private:
     DiscoverySender discovery_;

@@ -94,7 +94,7 @@ void RobotSide::play(SessionLoop& loop, std::size_t index, const SessionLoop::Pr
     const RobotView robot = loop.robot(slot.description.device);
     const bool is_there = slot.present() && robot.connected;
     if (waits || !pointer.played.connected || !is_there || !channel_.link().hears_peer() ||
-        !works_together(index)) {
+        !telling_.may_press(channel_, index)) {
         pointer.holds = false;
         touch_.let_go(index);
         return;

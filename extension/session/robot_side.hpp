@@ -73,10 +73,6 @@ private:
     };
 
     const TeleopSettings& settings() const { return channel_.settings(); }
-    // What the operator's model does not have yet is not pressed.
-    bool works_together(std::size_t hand) const {
-        return (settings().traditional || telling_.is_whole()) && channel_.works_together(hand);
-    }
     void receive(SessionLoop& loop);
     void restart(SessionLoop& loop);
     static RobotBody body_of(const DeviceCapabilities& robot);

@@ -39,7 +39,7 @@ void RobotSide::play(SessionLoop& loop, std::size_t index, ToolSlot& slot) {
     const bool can_hold = tool.wrist == Wrist::stiff || tool.wrist == Wrist::driven;
     const bool answers = can_hold && slot.hand.holds;
     if (waits || !tool.played.connected || !answers || !channel_.link().hears_peer() ||
-        !works_together(first_tool + index)) {
+        !telling_.may_press(channel_, first_tool + index)) {
         tool.holds = false;
         return;
     }

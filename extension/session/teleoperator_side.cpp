@@ -109,7 +109,7 @@ void TeleoperatorSide::play(SessionLoop& loop, std::size_t index, SessionLoop::P
         pointer.here.force = direction_to_parent(frame, pointer.played.force);
     }
     const bool another_goes = pointer.is_new && !slot.idle;
-    if (waits || another_goes || !pointer.played.connected || !works_together(index)) {
+    if (waits || another_goes || !pointer.played.connected || !telling_.may_press(channel_, index)) {
         let_go(loop, pointer, slot);
         return;
     }

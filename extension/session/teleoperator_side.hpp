@@ -81,10 +81,6 @@ private:
     ToolSlot* tool_of(SessionLoop& loop, std::size_t tool) const {  // null: it has none
         return tool < share_.most(max_tools) ? loop.tool(share_.proxy_of(tool)) : nullptr;
     }
-    // What the operator's model does not have yet is not pressed.
-    bool works_together(std::size_t hand) const {
-        return (settings().traditional || telling_.is_whole()) && channel_.works_together(hand);
-    }
     void receive(SessionLoop& loop);
     void start_over_if_peer_has(SessionLoop& loop);
     void release_hands(SessionLoop& loop);

@@ -16,7 +16,8 @@ void TeleoperatorSide::play(SessionLoop& loop, std::size_t index, ToolSlot& slot
     const bool waits = hands_.play(slot, tool.played) == Playing::waiting;
     const bool is_given = slot.hand.holds;
     const bool another_goes = tool.is_new && !tool.idle;
-    if (waits || another_goes || !tool.played.connected || !is_given || !works_together(first_tool + index)) {
+    if (waits || another_goes || !tool.played.connected || !is_given ||
+        !telling_.may_press(channel_, first_tool + index)) {
         let_go(tool, slot);
         return;
     }
