@@ -1,4 +1,5 @@
 // Recordings as OpenNI2 itself makes them.
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -118,6 +119,10 @@ std::string content(const fs::path& path) {
     return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
+constexpr std::uintmax_t no_disk_has = std::uintmax_t{1} << 60;
+constexpr std::uintmax_t written_at_least = 20'000;  // holds a frame whole
+constexpr off_t filling = 512 << 20;                 // more than other programs write in between
+
 // A folder of its own for each test.
 class RecordingFiles : public ::testing::Test {
 protected:
@@ -135,6 +140,18 @@ protected:
         return names;
     }
     std::string path(const std::string& name) const { return (folder_ / name).string(); }
+    // As another program does.
+    void fill_disk() const {
+        const int file = open(path("other").c_str(), O_CREAT | O_WRONLY, 0600);
+        ASSERT_EQ(posix_fallocate(file, 0, filling), 0);
+        close(file);
+    }
+    // OpenNI2 writes in a thread of its own, and what that has not begun when a recording ends is left out.
+    void record_frames(Camera& camera, const std::string& name) {
+        while (fs::file_size(path(name)) < written_at_least) {
+            read_frames(camera, 1);
+        }
+    }
     void read_frames(Camera& camera, int count) {
         DepthImage image;
         for (int i = 1; i <= count; ++i) {
@@ -150,10 +167,10 @@ protected:
 
 TEST_F(RecordingFiles, AreNeverWrittenOver) {
     std::ofstream(path("images.oni")) << "of yesterday";
-    for (int i = 0; i < 2; ++i) {
+    for (const char* const name : {"images_2.oni", "images_3.oni"}) {
         Camera camera(testing::openni());
         ASSERT_EQ(camera.open({.uri = scene_.uri(), .record_to = path("images.oni")}), "");
-        read_frames(camera, 4);
+        record_frames(camera, name);
     }
     EXPECT_EQ(content(path("images.oni")), "of yesterday");
     EXPECT_EQ(names(), (std::set<std::string>{"images.oni", "images_2.oni", "images_3.oni"}));
@@ -165,7 +182,7 @@ TEST_F(RecordingFiles, OfACopyAreNeverWrittenOver) {
     {
         Camera camera(testing::openni());
         ASSERT_EQ(camera.open({.uri = scene_.uri(), .record_to = path("images.oni")}), "");
-        read_frames(camera, 4);
+        record_frames(camera, "images.oni");
     }
     std::ofstream(path("copy.oni")) << "of yesterday";
     std::string error;
@@ -182,16 +199,32 @@ TEST_F(RecordingFiles, OfACameraThatIsNotThereAreNone) {
     EXPECT_TRUE(names().empty());
 }
 
-TEST_F(RecordingFiles, EndWholeBeforeTheDiskIsFull) {
-    const std::uintmax_t free = fs::space(folder_).available;
+TEST_F(RecordingFiles, AreNotBegunOnADiskThatIsFull) {
     {
         Camera camera(testing::openni());
         const Camera::Choice choice{
-            .uri = scene_.uri(), .record_to = path("images.oni"), .kept_free = 2 * free};
+            .uri = scene_.uri(), .record_to = path("images.oni"), .kept_free = no_disk_has};
         ASSERT_EQ(camera.open(choice), "");
-        EXPECT_EQ(camera.remark(), "");
         read_frames(camera, 4);
-        EXPECT_NE(camera.remark().find("its disk is nearly full"), std::string::npos) << camera.remark();
+        EXPECT_NE(camera.remark().find("is not recorded, as its disk is nearly full"), std::string::npos)
+            << camera.remark();
+    }
+    EXPECT_TRUE(names().empty());
+}
+
+TEST_F(RecordingFiles, EndWholeBeforeTheDiskIsFull) {
+    {
+        Camera camera(testing::openni());
+        const std::uintmax_t free = fs::space(folder_).available;
+        const Camera::Choice choice{
+            .uri = scene_.uri(), .record_to = path("images.oni"), .kept_free = free - filling / 2};
+        ASSERT_EQ(camera.open(choice), "");
+        record_frames(camera, "images.oni");
+        EXPECT_EQ(camera.remark(), "");
+        fill_disk();
+        read_frames(camera, 4);
+        EXPECT_NE(camera.remark().find("ends here, as its disk is nearly full"), std::string::npos)
+            << camera.remark();
     }
     RecordedFrames frames;
     EXPECT_EQ(frames.open(path("images.oni"), {}), "");

@@ -15,6 +15,8 @@ namespace tactus {
 
 namespace {
 
+constexpr const char* make_room = "make room, then open the camera again";
+
 // The nearest width counts first, then whole millimeters, then speed.
 bool is_better(const OniVideoMode& one, const OniVideoMode& other, int width) {
     const auto rank = [width](const OniVideoMode& mode) {
@@ -151,6 +153,11 @@ std::string Camera::record(const std::string& wanted, std::uintmax_t reserve) {
         return error;
     }
     reserve_ = reserve;
+    if (has_less_free(recorded_, reserve_)) {
+        std::remove(recorded_.c_str());
+        remark_ = "; '" + recorded_ + "' is not recorded, as its disk is nearly full: " + make_room;
+        return "";
+    }
     if (openni_->create_recorder(recorded_.c_str(), &recorder_) != ONI_STATUS_OK) {
         recorder_ = nullptr;
         std::remove(recorded_.c_str());
@@ -181,8 +188,7 @@ void Camera::give_up() {
 void Camera::keep_disk_free() {
     if (recorder_ != nullptr && has_less_free(recorded_, reserve_)) {
         stop_recording();
-        remark_ = "; '" + recorded_ +
-                  "' ends here, as its disk is nearly full: make room, then open the camera again";
+        remark_ = "; '" + recorded_ + "' ends here, as its disk is nearly full: " + make_room;
     }
 }
 
