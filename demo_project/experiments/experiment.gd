@@ -52,8 +52,6 @@ const NANOSECOND := 1e-9
 
 ## To find the far side, in seconds.
 const LONGEST_MEETING := 30.0
-## From the last description of a body until the teleoperator's count of them (unit: seconds).
-const LAST_WORD := 0.3
 
 var _link_options := {}
 var _device_options := {}
@@ -392,17 +390,12 @@ func _rest_at(place: Vector3) -> HapticPath:
 	return way
 
 
-## Both sides hear each other, and the operator knows what there is; then the hand sets out.
+## Both sides hear each other, and the operator's model is complete; then the hand sets out.
 func _meet(link: MMTLink, device: HapticDevice) -> bool:
-	var bodies := link.get_parent().find_children("*", "PhysicsBody3D", true, false).size()
 	var deadline := Time.get_ticks_msec() + int(LONGEST_MEETING * 1000.0)
-	while not link.is_peer_connected() or link.get_statistics().objects < bodies:
+	while not link.is_peer_connected() or not link.get_statistics().get("model_complete", true):
 		if Time.get_ticks_msec() > deadline or link.get_state() == MMTLink.STATE_LEFT:
 			return false
-		await get_tree().process_frame
-	# The operator's hand is held until the teleoperator has said that nothing more comes.
-	await get_tree().create_timer(LAST_WORD).timeout
-	while link.get_state_text().contains("touch nothing until"):
 		await get_tree().process_frame
 	if _way != null:
 		device.path = _way

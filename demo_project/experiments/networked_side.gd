@@ -11,7 +11,6 @@ extends SceneTree
 
 const Sides := preload("res://experiments/sides.gd")
 const SCENE := "res://gallery/dynamic_testbed/dynamic_testbed.tscn"
-const OBJECTS := 2
 const SAY_EVERY := 0.05
 
 var _link: MMTLink
@@ -43,7 +42,7 @@ func _initialize() -> void:
 
 func _process(_delta: float) -> bool:
 	var now := Time.get_unix_time_from_system()
-	if not _presses and _link.side == MMTLink.SIDE_OPERATOR and _link.get_statistics().objects >= OBJECTS:
+	if not _presses and _link.side == MMTLink.SIDE_OPERATOR and _link.get_statistics().model_complete:
 		_presses = true
 		_device.path = _way(
 			[Vector3(0.0, 0.3, 0.25), Vector3(0.0, 0.155, 0.25), Vector3(0.0, 0.155, 0.25)], [0.0, 2.0, 1e5]

@@ -142,8 +142,8 @@ bool ModelBuilder::all_known() const {
 
 // Until it is whole no hand touches the model: the far side's would press what is not described yet.
 void ModelBuilder::begin_first() {
-    if (first_ == First::awaited) {
-        first_ = First::begun;
+    if (first_ == FirstDescription::awaited) {
+        first_ = FirstDescription::begun;
         waiting_.push_back(description_begins);
     }
 }
@@ -153,8 +153,8 @@ void ModelBuilder::let_fall(Nanoseconds now) {
     if (!all_known() && now - news_at_ < floats_at_most) {
         return;
     }
-    if (first_ == First::begun) {
-        first_ = First::whole;
+    if (first_ == FirstDescription::begun) {
+        first_ = FirstDescription::whole;
         waiting_.push_back(description_is_whole);
     }
     for (ModelObject& object : objects_) {

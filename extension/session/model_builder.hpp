@@ -110,9 +110,9 @@ private:
     ModelJoints joints_;
     Nanoseconds outdated_at_ = 0;  // when the far side has started anew
     bool any_outdated_ = false;
-    enum class First : std::uint8_t { awaited, begun, whole } first_ = First::awaited;  // description
-    std::deque<ObjectBinding> waiting_;                                                 // found the ring full
-    Vec3 gravity_{0.0};  // as set last (unit: meters per second squared)
+    FirstDescription first_ = FirstDescription::awaited;
+    std::deque<ObjectBinding> waiting_;  // found the ring full
+    Vec3 gravity_{0.0};                  // as set last (unit: meters per second squared)
     Nanoseconds gravity_at_ = 0;
     bool gravity_known_ = false;
     std::size_t object_count_ = 0;  // that the far side says it has

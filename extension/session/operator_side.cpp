@@ -83,7 +83,7 @@ void OperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
 
 // Until the model is whole a hand touches nothing, and is absent at the far side.
 bool OperatorSide::waits_for_model() const {
-    return !is_described_ && !settings().traditional;
+    return described_ == FirstDescription::begun && !settings().traditional;
 }
 
 // Nor does one that cannot work together with the far side's.
@@ -238,7 +238,8 @@ void OperatorSide::forget_far_side() {
 
 void OperatorSide::bind(const ObjectBinding& binding) {
     if (binding.object == no_object) {
-        is_described_ = binding.body == description_is_whole.body;
+        described_ =
+            binding.body == description_is_whole.body ? FirstDescription::whole : FirstDescription::begun;
         return;
     }
     if (binding.object >= body_of_object_.size()) {
@@ -588,7 +589,7 @@ void OperatorSide::report(SessionLoop& loop, Nanoseconds now) {
     channel_.set_own(terms);
     acknowledge();
     statistics_.sample = sample_;
-    statistics_.waits_for_model = waits_for_model();
+    statistics_.description = described_;
     statistics_.doubt = touched_doubt(loop);
     statistics_.ghosts = ghosts_.seen(now);
     channel_.end_tick(statistics_);

@@ -248,7 +248,7 @@ private:
     std::vector<Found> found_;         // by body
     std::vector<SessionHandle> news_;  // of found_
     GhostEar ghosts_;
-    bool is_described_ = true;  // false: the far side's first description is under way
+    FirstDescription described_ = FirstDescription::awaited;  // the far side's first
     std::vector<SessionHandle> body_of_object_;
     std::vector<ObjectId> object_of_body_;
     std::vector<Vec3> hands_;  // that are there

@@ -85,6 +85,9 @@ struct StateLoad {
     double oldest = 0.0;  // since a body that is due was said last (unit: seconds)
 };
 
+// How far the far side is with its first description of what it has.
+enum class FirstDescription : std::uint8_t { awaited, begun, whole };
+
 struct TeleopStatistics {
     std::uint64_t sample = 0;  // operator: the newest of its own; far side: the newest applied
     LinkStatistics link;
@@ -107,8 +110,8 @@ struct TeleopStatistics {
     EnergyFigures energy;
     std::uint64_t without_past = 0;  // states of moving bodies for which there is no room in the model's past
     std::uint64_t beyond_history = 0;  // operator: states of moving bodies older than the model's past
-    bool waits_for_model = false;      // operator: the first description of the far side is under way
-    SeenGhosts ghosts;                 // operator: the hands of others
+    FirstDescription description = FirstDescription::awaited;  // operator: the far side's first
+    SeenGhosts ghosts;                                         // operator: the hands of others
     double doubt = 0.0;  // operator: of a place that is touched, as the far side sees it, standard
                          // deviation (unit: meters)
     BufferCounts buffer;

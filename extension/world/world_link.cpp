@@ -421,9 +421,10 @@ WorldLink::Standing WorldLink::standing_of_peer() const {
 std::string WorldLink::unfinished_model() const {
     const TeleopStatistics& teleop = port_->statistics.front();
     if (is_operator()) {
-        return teleop.waits_for_model ? "the teleoperator describes its bodies: pointers and tools touch "
-                                        "nothing until the model has all of them"
-                                      : "";
+        return teleop.description == FirstDescription::begun && !plan_.teleop.traditional
+                   ? "the teleoperator describes its bodies: pointers and tools touch nothing until the "
+                     "model has all of them"
+                   : "";
     }
     const std::uint32_t missing = plan_.teleop.traditional ? 0 : teleop.discovery.unanswered;
     return missing == 0

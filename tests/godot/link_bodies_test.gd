@@ -51,6 +51,29 @@ func test_a_far_body_with_another_name_or_parent_is_told() -> void:
 	check_equal(_here.get_statistics().objects, 1, "objects")
 
 
+func test_a_model_that_is_described_slowly_is_touched_once_it_is_whole() -> void:
+	await _connect(MMTLink.SCENARIO_MMT)
+	_there.conditions.rate = 64_000.0
+	add_floor(_far, STIFFNESS)
+	for i in 40:
+		var other := with_shape(StaticBody3D.new(), sphere(0.01), Vector3(1.0 + 0.1 * i, 0, 0))
+		_far.add_child(other)
+	_add_hands(0.0)
+	await frames(2)
+	var seconds_held := 0.0
+	for _step in 200:
+		_advance(0.01)
+		await frames(1)
+		if _here.is_peer_connected() and not _here.get_statistics().model_complete:
+			check_near(_felt(_operator), Vector3.ZERO, 0.0, "force of a model that is not whole")
+			if _here.get_statistics().objects > 0:
+				check(_here.get_state_text().contains("touch nothing until"), _here.get_state_text())
+				seconds_held += 0.01
+	check(seconds_held > 0.1, "the description takes %f s" % seconds_held)
+	check(_here.get_statistics().model_complete, "the model is whole at the end")
+	check_equal(_here.get_state_text(), "connected", "text")
+
+
 func test_a_body_that_only_the_operator_has_is_named() -> void:
 	await _connect(MMTLink.SCENARIO_MMT)
 	for world: HapticWorld in [_operator, _far]:
