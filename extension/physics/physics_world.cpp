@@ -475,6 +475,18 @@ double PhysicsWorld::mass(BodyId id) const {
     return body != nullptr ? impl_->record(*body).mass * impl_->record(*body).factors.mass : 0.0;
 }
 
+double PhysicsWorld::mobility(BodyId id, const Vec3& world_point, const Vec3& along) const {
+    const JPH::Body* body = impl_->find(id);
+    const double length = glm::length(along);
+    if (body == nullptr || !body->IsDynamic() || length == 0.0) {
+        return 0.0;
+    }
+    const JPH::Vec3 arm(units::position(world_point) - body->GetCenterOfMassPosition());
+    const JPH::Vec3 lever = arm.Cross(units::plain(along / length));
+    return static_cast<double>(body->GetMotionProperties()->GetInverseMass() +
+                               lever.Dot(body->GetInverseInertia().Multiply3x3(lever)));
+}
+
 Motion PhysicsWorld::motion(BodyId id) const {
     const JPH::Body* body = impl_->find(id);
     return body != nullptr ? motion_of(*body) : Motion::Static;

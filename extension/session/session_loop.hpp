@@ -339,6 +339,7 @@ private:
     void press_bodies(const ToolSlot& slot);
     void describe(ToolSlot& slot, const ToolTick& tick) const;
     FadingForce::Step step_of(const ProxySlot& slot) const;
+    bool surface_jumps(const ProxySlot& slot, const HandForce& before) const;
     bool touches_other_walls(ProxySlot& slot) const;
     void press_all();
     Vec3 attract(const ProxySlot& slot, bool press);

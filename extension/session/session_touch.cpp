@@ -63,6 +63,31 @@ bool SessionLoop::touches_other_walls(ProxySlot& slot) const {
     return before.most > 0.0 && now.most > 0.0 && before != now;
 }
 
+// A body that a hand pushes gains speed little by little. One that is set going, put right or stopped by
+// another has it from one tick to the next, and the damper of its surface follows.
+bool SessionLoop::surface_jumps(const ProxySlot& slot, const HandForce& before) const {
+    constexpr double margin = 2.0;  // a push grows within the step
+    const double fade = fade_of(slot.description.device);
+    const double change = glm::distance(slot.parts.of_speed, before.of_speed);
+    if (change <= fade) {
+        return false;
+    }
+    double by_push = 0.0;  // no more than that (unit: newtons)
+    for (int i = 0; i < before.contact_count; ++i) {
+        const ContactForce& part = before.contacts[i];
+        const Body* const pushed = body(handle_of_slot_[static_cast<std::size_t>(part.body)]);
+        if (!pushed) {
+            continue;
+        }
+        if (pushed->soft) {
+            return false;
+        }
+        by_push += margin * seconds_ * part.wall.damping * glm::length(part.on_hand) *
+                   physics_.mobility(pushed->id, part.point, part.on_hand);
+    }
+    return change > fade + by_push;
+}
+
 // Bodies get their part only now: what a correction of this tick changes is in it.
 void SessionLoop::press_all() {
     for (ProxySlot& slot : proxies_) {
@@ -87,7 +112,7 @@ void SessionLoop::press_all() {
 }
 
 void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
-    slot.parts = {};
+    const HandForce parts_before = std::exchange(slot.parts, {});
     if (!is_held(slot)) {
         slot.force = slot.effects.besides = Vec3(0.0);
         slot.torsion.count = 0;
@@ -123,7 +148,8 @@ void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
     note_walls(slot, device);
     break_surfaces(slot, force);
     add_surface_effects(scene_, slot.proxy->touching(), motion, now, seconds_, slot.effects, force);
-    slot.jumped = touches_other_walls(slot) || tick.jumped || aid.jumped || changed;
+    slot.jumped = touches_other_walls(slot) || tick.jumped || aid.jumped || changed ||
+                  surface_jumps(slot, parts_before);
     if (slot.description.force_law == ForceLaw::smoothed && !slot.jumped) {
         smooth(force, slot.force_before - slot.effects.besides);
     }

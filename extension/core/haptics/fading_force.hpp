@@ -2,7 +2,7 @@
 //
 // The motion of the hand and of bodies changes the force continuously. A body that appears, vanishes or is
 // put elsewhere, a stiffness that is set, the border of a stiffer surface, a radius that grows, a surface
-// that lets go change it at once. Then
+// that lets go, or a damped one that is set going or stopped change it at once. Then
 //     felt force = force of the scene + offset,
 // where the offset is what the felt force would jump by otherwise, and fades by a fixed step a tick.
 //

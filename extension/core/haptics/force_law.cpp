@@ -96,6 +96,7 @@ HandForce contact_force(const TouchScene& scene, std::span<const Touch> touching
         part.wall = wall;
         part.wanted_stiffness = wanted;
         force.source += glm::dot(part.on_hand, surface_way);
+        force.of_speed += contact.normal * (wall.damping / seconds * glm::dot(surface_way, contact.normal));
         force.total += part.on_hand;
     }
     return force;

@@ -32,6 +32,7 @@ struct HandForce {
     ContactForce contacts[max_contacts];
     int contact_count = 0;
     double source = 0.0;  // energy that bodies on their way give the hand in this tick (unit: joules)
+    Vec3 of_speed{0.0};   // what dampers add because surfaces move (unit: newtons)
 };
 
 // What of a material's wall a hand may be given.
