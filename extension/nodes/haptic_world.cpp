@@ -131,21 +131,28 @@ bool HapticWorld::chooses_godot() {
     return !need.empty();
 }
 
-// Scripts add nodes and connect signals after the world has started.
+// Scripts add nodes and connect signals after the world has started. A world that starts anew lets go of what
+// hands touch, so that it waits until they touch nothing.
 void HapticWorld::look_at_arrivals() {
-    const std::vector<std::uint64_t> arrivals = std::exchange(arrivals_, {});
+    std::vector<std::uint64_t> arrivals = std::exchange(arrivals_, {});
     if (run_ == nullptr || run_->engine_moves() || authority_ != AUTHORITY_AUTOMATIC || !may_choose_godot()) {
         return;
     }
-    const auto asks_for_godot = [this](std::uint64_t id) {
+    std::string need;
+    std::erase_if(arrivals, [&](std::uint64_t id) {
         Node* const node = node_of_id<Node>(id);
-        if (node == this) {
-            return !need_below(*this).empty();
-        }
-        return node != nullptr && is_ancestor_of(node) && !need_of_godot(*node).empty();
-    };
-    if (std::ranges::any_of(arrivals, asks_for_godot)) {
+        const bool is_below = node != nullptr && (node == this || is_ancestor_of(node));
+        const std::string its = !is_below ? "" : node == this ? need_below(*this) : need_of_godot(*node);
+        need = need.empty() ? its : need;
+        return its.empty();
+    });
+    if (need.empty()) {
+        return;
+    }
+    if (run_->may_start_anew(need)) {
         world_changed();
+    } else {
+        arrivals_ = std::move(arrivals);
     }
 }
 

@@ -123,6 +123,14 @@ void WorldRun::synchronise(double seconds) {
     }
 }
 
+bool WorldRun::may_start_anew(const std::string& need) {
+    const bool may = hands_->touched().empty();
+    complaints_.say(world_, may ? std::string()
+                                : "Godot's own physics is to move its bodies, because " + need +
+                                      ": it takes over as soon as no hand touches anything");
+    return may;
+}
+
 // Once the scene has had time to come together: a second of frames, or when a script advances time again.
 void WorldRun::look_at_scene() {
     constexpr std::uint32_t frames_between = 64;

@@ -73,6 +73,8 @@ public:
         return node != nullptr ? view().body_of(node->get_instance_id()) : no_handle;
     }
     bool engine_moves() const { return engine_moves_; }
+    // Whether Godot's own physics may take over now, which `need` asks for; it is said why not.
+    bool may_start_anew(const std::string& need);
     bool is_linked() const { return !link_nodes_.empty(); }
     BodyState state_of(const godot::Node* node) { return running_.state_of(body_of(node)); }
 

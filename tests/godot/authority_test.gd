@@ -311,3 +311,44 @@ func test_a_soft_body_is_said() -> void:
 	await get_tree().physics_frame
 	world.advance(FRAME)
 	check("\n".join(world.get_problems()).contains("Soft"), "%s" % world.get_problems())
+
+
+## A vehicle comes while a hand presses: nothing is taken from the hand, and Godot takes over once it has let
+## go.
+func test_a_choice_waits_for_the_hand() -> void:
+	var world := HapticWorld.new()
+	world.clock = HapticWorld.CLOCK_STEPPED
+	world.default_material = material(500.0)
+	add_child(world)
+	add_floor(world)
+	var proxy := add_hand(world, path(Vector3(0, 0.05, 0), Vector3(0, 0.0, 0), 0.2))
+	var device := world.get_node("Device") as HapticDevice
+	for _i in 30:
+		await get_tree().physics_frame
+		world.advance(FRAME)
+	check_near(device.get_displayed_force(), Vector3(0, 5, 0), 1e-3, "pressed with")
+	expect_error("Godot's own physics is to move its bodies, because")
+	world.add_child(VehicleWheel3D.new())
+	var largest := 0.0
+	for _i in 500:
+		var before := device.get_displayed_force()
+		world.advance(0.001)
+		largest = maxf(largest, before.distance_to(device.get_displayed_force()))
+	check(proxy.is_touching(), "it touches nothing")
+	check(largest < 0.01, "%s N in a tick" % largest)
+	check_equal(world.get_authority_in_use(), HapticWorld.AUTHORITY_HAPTIC, "while it presses")
+	device.position.y = 0.1
+	for _i in 30:
+		await get_tree().physics_frame
+		world.advance(FRAME)
+	check_equal(world.get_authority_in_use(), HapticWorld.AUTHORITY_GODOT, "after it")
+	largest = 0.0
+	for i in 1000:
+		if i % 16 == 0:
+			await get_tree().physics_frame
+		device.position.y = maxf(0.0, device.position.y - 2e-4)
+		var before := device.get_displayed_force()
+		world.advance(0.001)
+		largest = maxf(largest, before.distance_to(device.get_displayed_force()))
+	check_near(device.get_displayed_force(), Vector3(0, 5, 0), 1e-2, "pressed again with")
+	check(largest < 0.5, "%s N in a tick" % largest)
