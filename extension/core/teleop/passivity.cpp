@@ -222,8 +222,9 @@ Vec3 FarPassivity::wave_way(const PassivitySettings& settings, const In& in, std
     const double passed = std::max<double>(1.0, static_cast<double>(ticks));
     wave_energy_ += ticks > 0 ? per_square * glm::dot(wave, wave) / passed : 0.0;
     const double energy = per_square * glm::dot(wave, wave);
-    if (energy > wave_energy_) {
-        wave *= std::sqrt(std::max(0.0, wave_energy_) / energy);
+    // Rounding may leave a little less than nothing.
+    if (const double left = std::max(0.0, wave_energy_); energy > left) {
+        wave *= std::sqrt(left / energy);
     }
     wave_energy_ -= per_square * glm::dot(wave, wave);
     // b / (b + d) = (1 + r) / 2.

@@ -271,5 +271,24 @@ TEST(Passivity, AFarHandThatHasYieldedComesBack) {
     EXPECT_NEAR(hand.y, -1e-3, 1e-6);
 }
 
+// Samples come late and in lumps, so that more is played than has come and waves are scaled. Then the hand
+// stands and feels nothing: what rounding has left of the waves is no wave.
+TEST(Passivity, AFarHandIsSomewhereWhateverComesLate) {
+    for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+        shared::RandomValues random(seed);
+        FarPassivity far;
+        PassivitySettings settings;
+        FarPassivity::In in;
+        for (int i = 0; i < 200; ++i) {
+            const bool stands = i >= 100;
+            in.sample += static_cast<std::uint64_t>(random.between(0.0, 4.0));
+            in.hand.y += stands ? 0.0 : random.between(-1e-3, 1e-3);
+            in.force.y = stands ? 0.0 : random.between(-5.0, 5.0);
+            in.own_force.y = stands ? 0.0 : random.between(-5.0, 5.0);
+            ASSERT_TRUE(std::isfinite(far.hand(Passivity::wave_variables, settings, in).y)) << seed << " " << i;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace tactus::passivity_test
