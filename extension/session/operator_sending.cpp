@@ -28,7 +28,9 @@ bool OperatorSide::is_guessed(const SentHand& sent, const OperatorSample& sample
     const Quat turned = turn_by(last.spin, guessed_time(seconds)) * last.rotation;
     return deadband.enabled && sent.since != no_sample &&
            !position_needs_sending(deadband, guessed, sample.position, sample.velocity) &&
-           (settings().traditional || (sample.force == Vec3(0.0)) == (last.force == Vec3(0.0))) &&
+           (settings().traditional ||
+            ((sample.force == Vec3(0.0)) == (last.force == Vec3(0.0)) &&
+             !press_needs_sending(glm::length(last.force), glm::length(sample.force)))) &&
            (!sample.has_turn || angle_between(turned, sample.rotation) <= deadband.angle) &&
            sample.buttons == last.buttons && sample.connected == last.connected;
 }

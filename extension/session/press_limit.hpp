@@ -16,6 +16,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "core/teleop/deadband.hpp"
+
 namespace tactus {
 
 class PressLimit {
@@ -23,7 +25,6 @@ public:
     // Of the force that a limit changes, where the hand comes, returns or goes, and after a guess (unit:
     // newtons per second).
     static constexpr double slow_rate = 200.0, rate = 500.0;
-    static constexpr double guessed_force = 0.8;  // (unit: newtons)
     // A guess that lasts longer is an outage: the hand comes back from it (unit: seconds).
     static constexpr double longest_guess = 0.05;
     // By then another sample should have come (unit: seconds).
@@ -56,10 +57,10 @@ public:
         if (in.hand == Hand::goes) {
             depth_ = std::max(0.0, depth_ - slow_rate * in.seconds / in.stiffness);
         } else if (in.hand == Hand::guessed) {
-            const bool is_late = guessed_for_ > latest_guess;
+            const bool is_bound = in.own_force || guessed_for_ > latest_guess;
             const double more = guessed_force / in.stiffness;
             depth_ += change;
-            depth_ = !touches ? 0.0 : is_late ? std::min(depth_, known_ + more) : depth_;
+            depth_ = !touches ? 0.0 : is_bound ? std::min(depth_, std::min(known_, before_) + more) : depth_;
             state_ = guessed_for_ > longest_guess && state_ == State::here ? State::returns : state_;
         } else if (state_ == State::comes && in.own_force && in.force >= *in.own_force) {
             // What is told is rounded: a step more is no more than the operator's own.
@@ -77,12 +78,14 @@ public:
             return;
         }
         state_ = holds_back_ ? state_ : State::here;
+        before_ = depth_;
         known_ = state_ == State::here ? depth : depth_;
         depth_ = std::min(depth, depth_);
     }
     // How deep a hand is that is here and not held back (unit: meters); 0: it touches nothing. A guess ends
     // so.
     void note(double depth) {
+        before_ = depth_;
         known_ = depth_ = depth;
         guessed_for_ = 0.0;
     }
@@ -99,6 +102,7 @@ private:
     double depth_ = 0.0;        // that is allowed, or is there (unit: meters)
     double step_ = 0.0;         // that it may change by in a tick (unit: meters)
     double known_ = 0.0;        // when the hand was known last (unit: meters)
+    double before_ = 0.0;       // a tick before that: a tick's guess passes for known (unit: meters)
     double guessed_for_ = 0.0;  // (unit: seconds)
 };
 

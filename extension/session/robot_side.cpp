@@ -115,7 +115,8 @@ void RobotSide::play(SessionLoop& loop, std::size_t index, const SessionLoop::Pr
     statistics_.sample = std::max(statistics_.sample, pointer.played.sequence);
     const Wall coupling = coupling_of(robot);
     const Vec3 before = pointer.target;
-    pointer.target = next_target(before, hand_of(pointer, slot, coupling), settings().stand_in.speed,
+    const double speed = follow_speed(glm::length(pointer.played.velocity), settings().stand_in.speed);
+    pointer.target = next_target(before, hand_of(pointer, slot, coupling), speed,
                                  robot.workspace.pose.position, robot.capabilities.radius * scale, seconds_);
     pointer.passivity.went(pointer.target);
     pointer.velocity = (pointer.target - before) / seconds_;

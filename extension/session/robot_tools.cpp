@@ -75,16 +75,20 @@ void RobotSide::feel(SessionLoop& loop, Tool& tool, const ToolSlot& slot, const 
 // than the robot's place may.
 void RobotSide::lead(Tool& tool, const ToolSlot& slot, const RobotView& robot) const {
     const double scale = robot.workspace.scale;
-    const double speed = settings().stand_in.speed;
+    const double most = settings().stand_in.speed, reach = slot.proxy.shape().reach;
     const double length = slot.coupling_length();
     const Pose& grasp = slot.use.grasp;
+    const double spin = glm::length(tool.played.spin);
+    const double turning = follow_speed(spin * reach, most) / reach;
+    const double speed =
+        follow_speed(glm::length(tool.played.velocity) + spin * glm::length(grasp.position), most);
     const Pose before = tool.target;
     tool.coupling = coupling_of(robot);
     tool.turning = {tool.coupling.stiffness * length * length, tool.coupling.damping * length * length};
     tool.target.rotation =
         tool.wrist == Wrist::driven
             ? next_turn(before.rotation, tool.wanted.rotation * glm::conjugate(grasp.rotation),
-                        speed / slot.proxy.shape().reach, seconds_)
+                        turning, seconds_)
             : handle_of(slot);
     tool.target.position =
         next_target(before.position, tool.wanted.position - tool.target.rotation * grasp.position, speed,

@@ -44,17 +44,31 @@ PressLimit pressing(double depth) {
 TEST(PressLimit, AGuessThatLastsPressesHardlyMore) {
     PressLimit limit = pressing(0.001);
     is_guessed(limit, 0.01, 40);
-    EXPECT_NEAR(limit.depth(), 0.001 + PressLimit::guessed_force / 500.0, 1e-12);
+    EXPECT_NEAR(limit.depth(), 0.001 + guessed_force / 500.0, 1e-12);
     is_guessed(limit, 0.01, 20);
     is_here(limit, 0.01);
     EXPECT_TRUE(limit.binds(Hand::here)) << "it comes back from an outage";
 }
 
-// With a deadband every sample is followed by a guess: however many there were, none is late for it.
-TEST(PressLimit, ShortGuessesDoNotAddUp) {
+// A tick's guess passes for a sample: what it adds is no force that the operator is known to press with.
+TEST(PressLimit, AGuessPressesHardlyMoreFromItsFirstTickOn) {
+    PressLimit limit = pressing(0.001);
+    is_here(limit, 0.0024);
+    is_guessed(limit, 0.01, 4);
+    EXPECT_NEAR(limit.depth(), 0.001 + guessed_force / 500.0, 1e-12);
+}
+
+// Without a model the operator cannot tell where a guess presses more. Every sample is followed by a guess:
+// however many there were, none is late for it.
+TEST(PressLimit, ShortGuessesOfDirectTeleoperationDoNotAddUp) {
     PressLimit limit = pressing(0.001);
     for (int i = 0; i < 20; ++i) {
-        is_guessed(limit, 0.001, 15);
+        for (int tick = 0; tick < 15; ++tick) {
+            PressLimit::In direct = in(Hand::guessed);
+            direct.own_force.reset();
+            limit.step(direct);
+            limit.applied(Hand::guessed, 0.001);
+        }
         EXPECT_GT(limit.depth(), 0.001 + 14 * PressLimit::rate * 0.001 / 500.0);
         EXPECT_FALSE(limit.binds(Hand::here));
         is_here(limit, 0.001);

@@ -27,6 +27,10 @@ struct DeadbandSettings {
 inline constexpr double longest_hand_guess = 0.02;
 inline constexpr double slow_down_time = 0.005;
 
+// With a model: a guess presses harder than the last sample by so much at most, so that a hand that presses
+// more is sent by half of it (unit: newtons).
+inline constexpr double guessed_force = 0.8;
+
 // A guess of a slower hand leads nowhere: less than the fixed deadband (units: meters, radians per second).
 inline constexpr double standing_speed = 1e-3;
 inline constexpr double standing_spin = 0.05;
@@ -66,6 +70,8 @@ bool position_needs_sending(const DeadbandSettings& settings, const Vec3& guesse
 // `guessed`: what goes on with the last rates sent.
 bool motion_needs_sending(const DeadbandSettings& settings, const BodyMotion& guessed,
                           const BodyMotion& actual);
+// `last`, `now`: what the operator's hand is pressed with (unit: newtons), >= 0.
+inline bool press_needs_sending(double last, double now) { return now > last + 0.5 * guessed_force; }
 bool force_needs_sending(const DeadbandSettings& settings, const Vec3& last_sent, const Vec3& actual);
 
 }  // namespace tactus

@@ -26,6 +26,11 @@ Vec3 drive_force(const Wall& coupling, const Vec3& wanted, const Vec3& wanted_ve
     return coupling.stiffness * (wanted - position) + coupling.damping * (wanted_velocity - velocity);
 }
 
+double follow_speed(double told, double most) {
+    constexpr double rounding = 1.05, gentle = 0.2;
+    return std::min(std::max(rounding * told, gentle), most);
+}
+
 Vec3 next_target(const Vec3& before, const Vec3& hand, double speed, const Vec3& middle, double radius,
                  double seconds) {
     const Vec3 reachable = radius > 0.0 ? middle + shortened(hand - middle, radius) : hand;

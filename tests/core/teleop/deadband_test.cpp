@@ -39,5 +39,11 @@ TEST(Deadband, WebersShareGrowsWithTheForce) {
     EXPECT_TRUE(force_needs_sending(settings, {0.0, 0.2, 0.0}, {0.0, 0.3, 0.0}));
 }
 
+TEST(Deadband, AHandThatPressesMoreThanAGuessMayIsSent) {
+    EXPECT_FALSE(press_needs_sending(2.0, 2.0 + 0.5 * guessed_force));
+    EXPECT_TRUE(press_needs_sending(2.0, 2.01 + 0.5 * guessed_force));
+    EXPECT_FALSE(press_needs_sending(2.0, 0.0)) << "a guess that presses less is no danger";
+}
+
 }  // namespace
 }  // namespace tactus::deadband_test
