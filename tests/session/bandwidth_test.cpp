@@ -118,6 +118,54 @@ TEST(Bandwidth, ARateThatSufficesChangesNothing) {
     EXPECT_LT(wide.oldest, 0.05);
 }
 
+// Boxes that lie side by side on the ground and are pushed about there.
+TEST(Bandwidth, HundredsOfTouchingBodiesKeepToIt) {
+    constexpr int crowd = 300;
+    constexpr double rate = 2e6, besides = 40e3;
+    rig_bodies = 320;
+    ModelRig rig({}, keeping_to(rate));
+    rig_bodies = usual_rig_bodies;
+    rig.far->add("Ground", body(BoxShape{{3.0, 0.1, 3.0}}, {0.0, -0.1, 0.0}, Motion::Static));
+    std::vector<SessionHandle> boxes;
+    for (int k = 0; k < crowd; ++k) {
+        BodyAddition one =
+            body(BoxShape{Vec3(0.02)}, {0.04 * (k % 20), 0.02, 0.04 * (k / 20)}, Motion::Dynamic, 0.1);
+        one.description.can_sleep = false;
+        boxes.push_back(rig.far->add("Box" + std::to_string(k), one));
+    }
+    rig.near->device.position = {0.0, 0.06, 0.0};  // above Box0
+    const auto bits = [&] { return rig.near->port->statistics.front().link.received_rate.bits_per_s; };
+    double most = 0.0;
+    for (int i = 0; i < 100 && rig.near->builder.objects().size() <= boxes.size(); ++i) {
+        rig.run(100 * ms);
+        most = std::max(most, bits());
+    }
+    ASSERT_EQ(rig.near->builder.objects().size(), boxes.size() + 1);
+    double near = 0.0, others = 0.0;
+    for (int i = 0; i < 1200; ++i) {
+        for (int k = 0; i % 50 == 0 && k < crowd; ++k) {
+            const double angle = 2.4 * k + 1.7 * (i / 50), way = i / 50 % 2 == 0 ? 0.1 : -0.1;
+            rig.far->session.set_body_velocity(boxes[static_cast<std::size_t>(k)],
+                                               way * Vec3(std::cos(angle), 0.0, std::sin(angle)), Vec3(0.0));
+        }
+        rig.run(period);
+        most = std::max(most, bits());
+        const SessionSnapshot& there = rig.far->session.snapshot();
+        for (int k = 0; i % 20 == 0 && k < crowd; k += 19) {
+            const BodyState* const truth =
+                state_of(there.bodies, there.body_count, boxes[static_cast<std::size_t>(k)]);
+            ASSERT_NE(truth, nullptr);
+            const double error =
+                glm::distance(truth->pose.position, rig.near->pose("Box" + std::to_string(k)).position);
+            (k == 0 ? near : others) += error;
+        }
+    }
+    EXPECT_LT(most, 1.05 * rate + besides);
+    EXPECT_GT(bits(), 0.9 * rate);
+    EXPECT_LT(near, others / 15) << "what the hand may touch next comes first";
+    EXPECT_GT(rig.far->port->statistics.front().load.wanted, 10.0 * rate);
+}
+
 TEST(Bandwidth, DescriptionsKeepToItAsWell) {
     constexpr double rate = 400e3;
     Crowd narrow(rate);

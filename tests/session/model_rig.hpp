@@ -24,10 +24,14 @@ using shared::endpoint;
 
 constexpr Nanoseconds ms = 1'000'000;
 
+// Room of the sides that are made from now on.
+constexpr std::uint32_t usual_rig_bodies = 64;
+inline std::uint32_t rig_bodies = usual_rig_bodies;
+
 inline SessionSettings small_session() {
     SessionSettings settings;
-    settings.max_bodies = 64;
-    settings.max_parts = 128;
+    settings.max_bodies = rig_bodies;
+    settings.max_parts = 2 * rig_bodies;
     return settings;
 }
 
