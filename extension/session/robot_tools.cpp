@@ -87,8 +87,8 @@ void RobotSide::lead(Tool& tool, const ToolSlot& slot, const RobotView& robot) c
     tool.turning = {tool.coupling.stiffness * length * length, tool.coupling.damping * length * length};
     tool.target.rotation =
         tool.wrist == Wrist::driven
-            ? next_turn(before.rotation, tool.wanted.rotation * glm::conjugate(grasp.rotation),
-                        turning, seconds_)
+            ? next_turn(before.rotation, tool.wanted.rotation * glm::conjugate(grasp.rotation), turning,
+                        seconds_)
             : handle_of(slot);
     tool.target.position =
         next_target(before.position, tool.wanted.position - tool.target.rotation * grasp.position, speed,

@@ -71,7 +71,9 @@ bool position_needs_sending(const DeadbandSettings& settings, const Vec3& guesse
 bool motion_needs_sending(const DeadbandSettings& settings, const BodyMotion& guessed,
                           const BodyMotion& actual);
 // `last`, `now`: what the operator's hand is pressed with (unit: newtons), >= 0.
-inline bool press_needs_sending(double last, double now) { return now > last + 0.5 * guessed_force; }
+inline bool press_needs_sending(double last, double now) {
+    return now > last + 0.5 * guessed_force;
+}
 bool force_needs_sending(const DeadbandSettings& settings, const Vec3& last_sent, const Vec3& actual);
 
 }  // namespace tactus

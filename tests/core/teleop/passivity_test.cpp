@@ -285,7 +285,8 @@ TEST(Passivity, AFarHandIsSomewhereWhateverComesLate) {
             in.hand.y += stands ? 0.0 : random.between(-1e-3, 1e-3);
             in.force.y = stands ? 0.0 : random.between(-5.0, 5.0);
             in.own_force.y = stands ? 0.0 : random.between(-5.0, 5.0);
-            ASSERT_TRUE(std::isfinite(far.hand(Passivity::wave_variables, settings, in).y)) << seed << " " << i;
+            ASSERT_TRUE(std::isfinite(far.hand(Passivity::wave_variables, settings, in).y))
+                << seed << " " << i;
         }
     }
 }
