@@ -26,6 +26,10 @@ struct Side {
     float inverse_mass = 0.0f;
     JPH::Mat44 inverse_inertia = JPH::Mat44::sZero();
 
+    // Velocity of the point for a unit impulse along a unit vector.
+    JPH::Vec3 moved_by(JPH::Vec3Arg along) const {
+        return inverse_mass * along + inverse_inertia.Multiply3x3(arm.Cross(along)).Cross(arm);
+    }
     // Velocity along a unit vector for a unit impulse along it.
     float mobility(JPH::Vec3Arg along) const {
         const JPH::Vec3 lever = arm.Cross(along);
@@ -88,8 +92,11 @@ void ContactRules::apply(const JPH::Body& a, const JPH::Body& b, const JPH::Cont
         push_one_sidedly(a, b, contact);
     if (a.IsDynamic() && b.IsDynamic())
         take_pains(a, b);
-    if (contact.mCombinedFriction > 0.0f)
+    if (contact.mCombinedFriction > 0.0f) {
         oppose_sliding(a, b, manifold, contact);
+        if (contact.mCombinedRestitution > 0.0f)
+            bound_bounce(a, b, manifold, contact);
+    }
 }
 
 void ContactRules::push_one_sidedly(const JPH::Body& a, const JPH::Body& b,
@@ -115,6 +122,47 @@ void ContactRules::take_pains(const JPH::Body& a, const JPH::Body& b) const {
     JPH::MotionProperties& motion = *records_[a.GetID().GetIndex()]->in_world->GetMotionProperties();
     const auto wanted = static_cast<JPH::uint>(std::min(4.0f * std::sqrt(ratio), most));
     motion.SetNumVelocityStepsOverride(std::max(motion.GetNumVelocityStepsOverride(), wanted));
+}
+
+void ContactRules::bound_bounce(const JPH::Body& a, const JPH::Body& b, const JPH::ContactManifold& manifold,
+                                JPH::ContactSettings& contact) const {
+    const JPH::Vec3 normal = manifold.mWorldSpaceNormal;
+    const JPH::RVec3 point = manifold.mBaseOffset + 0.5f * (manifold.mRelativeContactPointsOn1[0] +
+                                                            manifold.mRelativeContactPointsOn2[0]);
+    Side on_a = side_of(a, point);
+    Side on_b = side_of(b, point);
+    weigh(on_a, a, contact.mInvMassScale1, contact.mInvInertiaScale1, gravity_, seconds_);
+    weigh(on_b, b, contact.mInvMassScale2, contact.mInvInertiaScale2, gravity_, seconds_);
+    const JPH::Vec3 velocity = on_b.velocity - on_a.velocity;
+    const float approach = -velocity.Dot(normal);
+    if (approach <= 0.0f)
+        return;
+    JPH::Mat44 mobility = JPH::Mat44::sIdentity();  // W
+    for (const JPH::uint axis : {0u, 1u, 2u}) {
+        JPH::Vec3 along = JPH::Vec3::sZero();
+        along.SetComponent(axis, 1.0f);
+        mobility.SetColumn3(axis, on_a.moved_by(along) + on_b.moved_by(along));
+    }
+    const JPH::Mat44 mass = mobility.Inversed3x3();  // M
+    const auto bounded = [&](float most) {
+        contact.mCombinedRestitution = std::min(contact.mCombinedRestitution, std::max(0.0f, most));
+    };
+    const JPH::Vec3 along = -contact.mRelativeLinearSurfaceVelocity;  // g
+    const JPH::Vec3 sticking =
+        mass.Multiply3x3(along + contact.mCombinedRestitution * approach * normal - velocity);
+    const float pressing = sticking.Dot(normal);
+    const JPH::Vec3 holding = sticking - pressing * normal;
+    const float held = holding.Length();
+    if (held <= contact.mCombinedFriction * pressing) {
+        const JPH::Vec3 of_normal = mass.Multiply3x3(normal);
+        const float linear = of_normal.Dot(along), square = of_normal.Dot(normal);
+        const float left = velocity.Dot(mass.Multiply3x3(velocity)) - along.Dot(mass.Multiply3x3(along));
+        bounded((std::sqrt(std::max(0.0f, linear * linear + square * left)) - linear) / (square * approach));
+        return;
+    }
+    const JPH::Vec3 direction = normal + contact.mCombinedFriction / held * holding;
+    const JPH::Vec3 moved = mobility.Multiply3x3(direction);
+    bounded(-2.0f * direction.Dot(velocity) * normal.Dot(moved) / (approach * direction.Dot(moved)) - 1.0f);
 }
 
 void ContactRules::oppose_sliding(const JPH::Body& a, const JPH::Body& b,

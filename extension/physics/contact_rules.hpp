@@ -40,6 +40,12 @@ float combined_restitution(const JPH::Body& a, const JPH::SubShapeID&, const JPH
 // given as its goal not rest but u_i (1 - K_i / max K), u being the point's velocity before the forces of the
 // step: then both impulses, (u_i - goal_i) / K_i, have the ratio of u. At rest u = 0 and so is the goal.
 //
+// A bounce gives no energy. Restitution e reverses the speed u_n = -v of the point along the normal, and
+// friction brings it to its goal g along the surface. With the mass M of the point, a matrix, the bodies have
+// u . M u / 2 before, and u' . M u' / 2 with u' = g + e v n after, which may be more where M is not diagonal
+// (Kane 1984). Where the point goes on sliding, the impulse is P d, d = n - mu t, and takes energy as long as
+// P <= -2 d . u / (d . W d), W = M^-1. So e is no larger than that of these bounds that holds.
+//
 // What a heavy body presses through light ones takes more iterations of the solver, for all that is linked to
 // them: four times the square root of the ratio of two masses.
 class ContactRules final : public JPH::ContactListener {
@@ -68,6 +74,8 @@ private:
                JPH::ContactSettings& contact) const;
     void push_one_sidedly(const JPH::Body& a, const JPH::Body& b, JPH::ContactSettings& contact) const;
     void take_pains(const JPH::Body& a, const JPH::Body& b) const;
+    void bound_bounce(const JPH::Body& a, const JPH::Body& b, const JPH::ContactManifold& manifold,
+                      JPH::ContactSettings& contact) const;
     void oppose_sliding(const JPH::Body& a, const JPH::Body& b, const JPH::ContactManifold& manifold,
                         JPH::ContactSettings& contact) const;
 

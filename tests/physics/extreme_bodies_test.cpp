@@ -9,6 +9,7 @@
 
 #include "physics/physics_world.hpp"
 #include "scene.hpp"
+#include "shared/random_values.hpp"
 
 namespace tactus::extreme_bodies_test {
 namespace {
@@ -167,6 +168,84 @@ TEST(ExtremeBodies, ElasticBoxesGainNothing) {
                 EXPECT_LT(energy(world, things), 1.01 * whole) << friction << ' ' << edge;
             }
         }
+    }
+}
+
+// Restitution reverses the speed of a point that hits the floor, and friction stops it. Together they would
+// give energy to a box that comes in askew, up to a third of what it has. A ball keeps all of its bounce.
+TEST(ExtremeBodies, AnObliqueBounceGainsNothing) {
+    shared::RandomValues random(51);
+    for (int i = 0; i < 300; ++i) {
+        PhysicsWorld world = small_world();
+        world.set_gravity(Vec3(0.0));
+        add(world, ground());
+        const bool is_ball = i % 3 == 0;
+        const double edge = random.between(0.02, 0.2);
+        const Vec3 size(edge, edge * random.between(0.1, 1.0), edge * random.between(0.1, 1.0));
+        BodyDescription body =
+            is_ball ? ball(0.5 * edge, {0.0, 0.3, 0.0}, 0.3) : box(size, {0.0, 0.3, 0.0}, 0.3);
+        body.pose.rotation = random.rotation();
+        body.linear_damping = body.angular_damping = 0.0;
+        body.linear_velocity = {random.between(-3.0, 3.0), random.between(-3.0, -0.5),
+                                random.between(-3.0, 3.0)};
+        body.angular_velocity = random.in_box(10.0);
+        body.material = {.friction = random.between(0.1, 2.0), .restitution = 1.0};
+        body.can_sleep = false;
+        const Thing thing = enter(world, body, is_ball ? Vec3(0.5 * edge * std::sqrt(2.4)) : size);
+        const double whole = kinetic(world, thing);
+        double most = whole;
+        for (int k = 0; k < 600; ++k) {
+            world.step(tick);
+            most = std::max(most, kinetic(world, thing));
+        }
+        EXPECT_LT(most, 1.006 * whole) << i << ' ' << body.material.friction;
+        if (is_ball) {
+            EXPECT_NEAR(world.linear_velocity(thing.id).y, -body.linear_velocity.y, 1e-3) << i;
+        }
+    }
+}
+
+// Flat on the floor a cube bounces as high with friction as without, and loses no more than mu (1 + e) v to
+// it.
+TEST(ExtremeBodies, ACubeThatLandsFlatBouncesAsHighWithFriction) {
+    for (const double restitution : {0.5, 0.8}) {
+        PhysicsWorld world = small_world();
+        world.set_gravity(Vec3(0.0));
+        add(world, ground());
+        BodyDescription body = box(Vec3(0.1), {0.0, 0.1, 0.0}, 0.3);
+        body.linear_damping = body.angular_damping = 0.0;
+        body.linear_velocity = {2.0, -1.0, 0.0};
+        body.material = {.friction = 0.2, .restitution = restitution};
+        const Thing thing = enter(world, body, Vec3(0.1));
+        run(world, 100);
+        const Vec3 after = world.linear_velocity(thing.id);
+        EXPECT_NEAR(after.y, restitution, 0.02) << restitution;
+        EXPECT_NEAR(after.x, 2.0 - 0.2 * (1.0 + restitution), 0.05) << restitution;
+    }
+}
+
+TEST(ExtremeBodies, RandomHeapsThatGiveBackAllGainNothing) {
+    for (int seed = 0; seed < 40; ++seed) {
+        shared::RandomValues random(static_cast<std::uint64_t>(seed));
+        PhysicsWorld world = small_world();
+        add(world, ground());
+        std::vector<Thing> things;
+        for (int i = 0; i < 2 + seed % 10; ++i) {
+            const double edge = random.between(0.02, 0.1);
+            const Vec3 size(edge, edge * random.between(0.2, 1.0), edge * random.between(0.2, 1.0));
+            const bool is_ball = random.unit() < 0.5;
+            const Vec3 place(random.between(-0.1, 0.1), 0.12 + 0.13 * i, random.between(-0.1, 0.1));
+            const double mass = random.magnitude(0.01, 1.0);
+            BodyDescription body = is_ball ? ball(0.5 * edge, place, mass) : box(size, place, mass);
+            body.pose.rotation = random.rotation();
+            body.linear_damping = body.angular_damping = 0.0;
+            body.linear_velocity = random.in_box(1.0);
+            body.material = {.friction = 0.5, .restitution = 0.5};  // together 1
+            body.can_sleep = false;
+            things.push_back(enter(world, body, is_ball ? Vec3(0.5 * edge * std::sqrt(2.4)) : size));
+        }
+        const double whole = energy(world, things);
+        EXPECT_LT(most_gained(world, things, 3000), 0.01 * whole) << seed;
     }
 }
 
