@@ -33,14 +33,6 @@ bool is_inertia(double value) {
     return value >= limits::least_inertia && value <= limits::max_inertia;
 }
 
-// The moment about an axis is at most the sum of the other two: otherwise some of the mass would be negative,
-// and contacts would give energy. Flat bodies have the sum itself, in Godot's single precision.
-bool is_possible(const Vec3& inertia) {
-    constexpr double rounding = 0.01;
-    const double largest = std::max({inertia.x, inertia.y, inertia.z});
-    return largest <= (1.0 + rounding) * (inertia.x + inertia.y + inertia.z - largest);
-}
-
 bool may_turn_dynamic(const BodyDescription& description) {
     return description.motion == Motion::Dynamic || description.may_move;
 }
@@ -71,7 +63,7 @@ std::string wrong_in(const BodyDescription& d) {
         return "the inertia must be between 10^-18 and 10^18 kg m^2 about all three axes; leave it at zero "
                "to "
                "have it computed";
-    if (d.inertia && !is_possible(*d.inertia))
+    if (d.inertia && !is_possible_inertia(*d.inertia))
         return "no body has the inertia " + in_short(d.inertia->x) + ", " + in_short(d.inertia->y) + ", " +
                in_short(d.inertia->z) +
                " kg m^2: make the largest at most the sum of the other two, or leave it at zero to have it "

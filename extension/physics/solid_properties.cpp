@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/matrix.hpp>
@@ -150,6 +151,18 @@ SolidProperties combined(const std::vector<SolidProperties>& parts) {
     for (const SolidProperties& part : parts)
         whole.inertia += inertia_about(part, whole.centroid);
     return whole;
+}
+
+bool is_possible_inertia(const Vec3& moments) {
+    constexpr double rounding = 0.01;
+    const double largest = std::max({moments.x, moments.y, moments.z});
+    return largest <= (1.0 + rounding) * (moments.x + moments.y + moments.z - largest);
+}
+
+Vec3 possible_inertia(const Vec3& moments) {
+    const double half_trace = 0.5 * (moments.x + moments.y + moments.z);
+    const Vec3 second = glm::max(Vec3(half_trace) - moments, Vec3(0.0));
+    return Vec3(second.x + second.y + second.z) - second;
 }
 
 }  // namespace tactus

@@ -27,4 +27,13 @@ SolidProperties combined(const std::vector<SolidProperties>& parts);
 // The inertia of a solid about a point other than its centroid (parallel axes).
 Mat3 inertia_about(const SolidProperties& solid, const Vec3& point);
 
+// The moment about an axis is at most the sum of the other two: otherwise some of the mass would be negative,
+// and contacts would give energy. Flat bodies have the sum itself, in Godot's single precision.
+bool is_possible_inertia(const Vec3& moments);
+
+// Principal moments of inertia as those of a body: the second moments of its mass along the axes,
+// (I_y + I_z - I_x) / 2 and so on, are 0 where they would be negative. Where one is, the largest moment stays
+// and the other two grow to those of a flat plate. `moments` are > 0.
+Vec3 possible_inertia(const Vec3& moments);
+
 }  // namespace tactus

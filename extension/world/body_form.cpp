@@ -1,6 +1,7 @@
 #include "world/body_form.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -142,6 +143,9 @@ void put_into(BodyDescription& description, const BodyMakings& makings) {
     description.mass = makings.mass;
     description.center_of_mass = makings.center_of_mass;
     description.inertia = makings.inertia == Vec3(0.0) ? std::nullopt : std::optional<Vec3>(makings.inertia);
+    if (!problem_of_inertia(makings.inertia).empty()) {
+        description.inertia = possible_inertia(makings.inertia);
+    }
     description.continuous = makings.continuous;
     description.can_sleep = makings.can_sleep;
     for (int i = 0; i < 3; ++i) {
@@ -172,6 +176,23 @@ std::vector<std::string> problems_of(const BodyForm& form) {
         }
     }
     return problems;
+}
+
+// What is no inertia at all is refused when the body is prepared.
+std::string problem_of_inertia(const Vec3& inertia) {
+    const bool is_one = std::min({inertia.x, inertia.y, inertia.z}) > 0.0 &&
+                        std::isfinite(inertia.x + inertia.y + inertia.z);
+    if (!is_one || is_possible_inertia(inertia)) {
+        return "";
+    }
+    const Vec3 has = possible_inertia(inertia);
+    char text[320];
+    std::snprintf(
+        text, sizeof text,
+        "no body has the inertia %.3g, %.3g, %.3g kg m^2: it turns with %.3g, %.3g, %.3g, as a flat "
+        "plate does; make the largest at most the sum of the other two, or lock its rotation axes",
+        inertia.x, inertia.y, inertia.z, has.x, has.y, has.z);
+    return text;
 }
 
 std::string problem_of_mass(double mass, const TouchMaterial& touch, double tick_seconds) {
@@ -275,6 +296,9 @@ BuiltBody build_body(const BodyPlan& plan, const ParallelRunner& run) {
     put_into(description, plan.makings);
     if (plan.makings.solid_of_mesh) {
         take_solid_of(touched, description);
+    }
+    if (std::string problem = problem_of_inertia(plan.makings.inertia); !problem.empty()) {
+        result.problems.push_back(std::move(problem));
     }
     description.pose = plan.place.pose;
     description.may_move = plan.may_move;

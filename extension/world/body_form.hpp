@@ -40,6 +40,9 @@ std::string problem_of(const MeshDraft& draft);  // empty where the triangles ar
 std::vector<std::string> problems_of(const BodyForm& form);
 // Why a free body of this mass gets another impulse than its hand feels, and what to do; empty where it gets
 // the same within 1 %.
+// What is said of an inertia that no body has, in place of which possible_inertia() counts; else empty.
+std::string problem_of_inertia(const Vec3& inertia);
+
 std::string problem_of_mass(double mass, const TouchMaterial& touch, double tick_seconds);
 // Triangles to build trees over, about.
 std::size_t triangle_count(const BodyForm& form);

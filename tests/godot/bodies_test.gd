@@ -225,6 +225,22 @@ func test_friction_and_bounce_between_bodies() -> void:
 	check(ball.linear_velocity.y > 1.0, "it does not bounce: %s" % ball.linear_velocity)
 
 
+# A large inertia about one axis keeps a body upright. No body has it, but it is felt and falls all the same.
+func test_an_impossible_inertia_is_named_and_keeps_the_body_upright() -> void:
+	var world := add_world()
+	var body := with_shape(RigidBody3D.new(), box(Vector3(0.1, 0.1, 0.1))) as RigidBody3D
+	body.name = "Upright"
+	body.inertia = Vector3(1000, 0.01, 0.01)
+	body.add_constant_torque(Vector3(0.1, 0, 0))
+	world.add_child(body)
+	world.advance(0.5)
+	check(body.position.y < -1.0, "it moves, to %s" % body.position)
+	check(body.angular_velocity.length() < 1e-3, "it stays upright: %s" % body.angular_velocity)
+	var warnings := "\n".join(world._get_configuration_warnings())
+	check("no body has the inertia" in warnings, "named: %s" % warnings)
+	world.free()
+
+
 func test_mass_and_inertia_of_the_library() -> void:
 	var world := add_world()
 	var speeds := []

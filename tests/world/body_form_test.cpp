@@ -67,6 +67,30 @@ TEST(BodyForm, AMassThatIsTooSmallForItsSurfaceIsNamedWithTheLeastOne) {
     EXPECT_NE(problem_of_mass(0.00401, touch, 1e-3), "");
 }
 
+// To keep a body upright games give it a large inertia about one axis: it is felt, with that one.
+TEST(BodyForm, AnInertiaThatNoBodyHasBecomesAPossibleOneAndIsNamed) {
+    BodyPlan plan;
+    plan.form.touchable = true;
+    plan.form.shapes = {{BoxShape{Vec3(0.05)}, {}}};
+    plan.values.motion = Motion::Dynamic;
+    plan.makings.inertia = Vec3(1e3, 0.1, 0.2);
+    const BuiltBody built = build_body(plan, run_serially);
+    ASSERT_TRUE(built.buildable);
+    EXPECT_TRUE(built.body.ready()) << built.body.error();
+    const Vec3 has = *built.addition.description.inertia;
+    EXPECT_DOUBLE_EQ(has.x, 1e3);
+    EXPECT_NEAR(has.y, 500.0, 0.1);
+    EXPECT_NEAR(has.z, 500.0, 0.1);
+    ASSERT_EQ(built.problems.size(), 1u);
+    EXPECT_NE(built.problems[0].find("no body has the inertia 1e+03, 0.1, 0.2"), std::string::npos)
+        << built.problems[0];
+
+    plan.makings.inertia = Vec3(0.1, 0.2, 0.3);
+    const BuiltBody flat = build_body(plan, run_serially);
+    EXPECT_EQ(*flat.addition.description.inertia, Vec3(0.1, 0.2, 0.3));
+    EXPECT_TRUE(flat.problems.empty());
+}
+
 TEST(BodyForm, WhatIsSaidOfOtherTrianglesIsLeftOut) {
     SurfaceMap map = map_of(sheet());
     map.uv.pop_back();
