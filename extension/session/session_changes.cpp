@@ -198,7 +198,9 @@ bool SessionLoop::carry_out(command::DeformBody& c, Retired& retired) {
         deformed && !deformed->soft && !c.soft && c.shape->parts.size() == deformed->shape->parts.size();
     retired.kind = Retired::Kind::form;
     if (deformed && deformed->soft && c.soft) {
-        deformed->soft->exchange_make(*c.soft);
+        if (deformed->soft->exchange_make(*c.soft)) {
+            fade_in(c.handle);
+        }
         retired.shape = std::move(c.shape);
     } else if (fits) {
         physics_.reshape(deformed->id, c.body);

@@ -56,7 +56,6 @@ bool SessionLoop::carry_out(command::CorrectBody& c, Retired&) {
     return false;
 }
 
-// What hands feel of it is another thing from now on, and fades in.
 void SessionLoop::put_right_at_once(Led& one) {
     const SessionHandle handle = one.state.handle;
     const Vec3 by = std::exchange(one.left.by, Vec3(0.0));
@@ -66,6 +65,10 @@ void SessionLoop::put_right_at_once(Led& one) {
     place(handle, pose, true);
     one.state.corrected.by += by;
     one.state.corrected.turn += turn;
+    fade_in(handle);
+}
+
+void SessionLoop::fade_in(SessionHandle handle) {
     for (ProxySlot& slot : proxies_) {
         slot.changed = slot.changed || (slot.proxy && rests_on(*slot.proxy, handle));
     }

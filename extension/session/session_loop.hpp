@@ -179,6 +179,8 @@ public:
                    const Pose* previous = nullptr);
     bool rests_on(const Proxy& proxy, SessionHandle handle) const;
     bool rests_on(const ToolProxy& proxy, SessionHandle handle) const;
+    // What hands that rest on it feel of it is another thing from now on, and fades in.
+    void fade_in(SessionHandle handle);
     // Whether any hand rests on it.
     bool is_touched(SessionHandle handle) const;
 

@@ -143,7 +143,7 @@ void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
     const Wall within = feel_punctures(slot, hand, aid.damping);
     const double left = aid.damping - damping_needed(within.stiffness, hand.lag) - within.damping;
     force = contact_force(scene_, slot.proxy->touching(), tick.slide, slot.hand_velocity, seconds_,
-                          {hand.lag, left, slot.description.finger.stiffness});
+                          {hand.lag, left, slot.description.finger.stiffness, slot.proxy->settings().radius});
     slot.pressed = force.total;
     note_walls(slot, device);
     break_surfaces(slot, force);

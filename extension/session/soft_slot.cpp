@@ -27,6 +27,7 @@ std::shared_ptr<TouchShape> soft_touch_shape(const SoftModel& model, const Paral
     part.closed = part.one_sided = model.closed;
     part.surface = tree;
     shape->parts.push_back(std::move(part));
+    shape->give = model.give;
     put_ball(*shape, *tree);
     return shape;
 }
@@ -51,6 +52,10 @@ bool SoftSlot::exchange_make(SoftSlot& other) {
     other.body.go_on_from(body);
     std::swap(body, other.body);
     std::swap(view_, other.view_);
+    for (TouchShape& form : forms_) {
+        form.give = body.model().give;
+    }
+    moved_ = true;
     return true;
 }
 

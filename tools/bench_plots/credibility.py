@@ -52,14 +52,6 @@ FIGURES = {
     "light.impulse_damped_1g": ("surface damping of 3 N s/m: of 1 g", "%"),
     "light.impulse_damped_10g": ("of 10 g", "%"),
     "light.impulse_damped_1kg": ("of 1 kg", "%"),
-    **{
-        f"soft_press.{of}_{cells}_cells": (title if cells == 2 else f"{cells} cells", "N/m")
-        for of, title in (
-            ("stiffness", "soft block of 80 mm and 10 kPa pressed at one place of its surface, 2 cells"),
-            ("fingertip", "the same pressed by a fingertip of 10 mm radius, 2 cells"),
-        )
-        for cells in (2, 4, 6, 8, 10, 12)
-    },
     "push.force": ("impulse of a hand that pushes a sliding box, against m v + mu m g t", "%"),
     "slowed.fallen_through": ("bodies of 1,000 that fell through a floor of 20 mm", ""),
     "slowed.bounce": ("a bounce among 300 bodies against the same alone, worst", "%"),
@@ -93,7 +85,16 @@ TITLES = {
     "soft_beam.period_100kPa": "first period at 0.1 MPa",
     "soft_beam.period_1MPa": "at 1 MPa",
     "soft_beam.period_10MPa": "at 10 MPa",
+    "soft_press.8_cells": "soft block of 80 mm and 10 kPa under a proxy of 10 mm, 10 mm deep: stiffness, 8 cells",
+    **{f"soft_press.{cells}_cells": f"of {cells} cells" for cells in (2, 4, 6, 10, 12)},
+    "soft_press.shallow_8_cells": "4 mm deep, 8 cells",
+    "soft_press.shallow_12_cells": "of 12 cells",
+    "soft_press.wide_8_cells": "by a proxy of 20 mm, 10 mm deep, 8 cells",
+    "soft_press.wide_12_cells": "of 12 cells",
+    "soft_press.narrow_8_cells": "by a proxy of 5 mm, 5 mm deep, 8 cells",
+    "soft_press.narrow_12_cells": "of 12 cells",
 }
+UNITS |= {case: "N/m" for case in TITLES if case.startswith("soft_press.")}
 
 
 def of_mujoco() -> dict[str, float]:

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/geometry/local_compliance.hpp"
 #include "core/geometry/shape.hpp"
 #include "core/geometry/solid.hpp"
 #include "core/geometry/touchable.hpp"
@@ -49,6 +50,7 @@ struct TouchShape {
     // Largest distance of any point of the body from its origin: how far a turn of one radian moves it at
     // most (unit: meters). Infinite with a half-space.
     double reach = 0.0;
+    LocalCompliance give;  // of a soft body: what its surface does not show of a press
 };
 
 // Whether what it says is of this mesh's triangles, and of numbers.

@@ -33,7 +33,7 @@ Pressing press_curve(const ForceCurve& curve, const TouchMaterial& material, dou
 }
 
 // `stretch`: from proxy to hand, of which the pad has its share (unit: meters).
-Pressing press(const Feel& feel, double stretch, const SafeWalls& safe) {
+Pressing press_surface(const Feel& feel, double stretch, const SafeWalls& safe) {
     const TouchMaterial& material = *feel.material;
     if (const ForceCurve* const curve = feel.curve()) {
         return press_curve(*curve, material, stretch, safe);
@@ -56,6 +56,30 @@ Pressing press(const Feel& feel, double stretch, const SafeWalls& safe) {
     const double stiffness = wall_of(safely, depth).stiffness;
     const double secant = stretch > 0.0 ? safely.force(depth) / stretch : stiffness;
     return {{stiffness, bound.damping}, wanted.stiffness, secant};
+}
+
+// A soft body gives by what its cells do not show as well: a pad whose stiffness grows with the force. Found
+// is the s of indentation_at() at which both hold the same force, by halves: each of them only grows.
+Pressing press(const Feel& feel, const LocalCompliance& give, double stretch, const SafeWalls& safe) {
+    if (give.is_none() || safe.radius <= 0.0 || feel.curve() != nullptr || stretch <= 0.0) {
+        return press_surface(feel, stretch, safe);
+    }
+    const auto force_of = [](const Pressing& pressing, double depth) { return pressing.secant * depth; };
+    double low = 0.0;
+    double high = std::max(safe.radius, force_of(press_surface(feel, stretch, safe), stretch) /
+                                            (4.0 / 3.0 * give.modulus * safe.radius));
+    for (int halving = 0; halving < 40; ++halving) {
+        const double middle = 0.5 * (low + high);
+        const Indentation local = indentation_at(give, safe.radius, middle);
+        const double left = stretch - local.depth;
+        const bool deeper = left > 0.0 && force_of(press_surface(feel, left, safe), left) > local.force;
+        (deeper ? low : high) = middle;
+    }
+    const Indentation local = indentation_at(give, safe.radius, high);
+    const double left = std::max(0.0, stretch - local.depth);
+    const Pressing surface = press_surface(feel, left, safe);
+    return {under_pad(surface.wall, local.stiffness),
+            under_pad({surface.wanted, 0.0}, local.stiffness).stiffness, force_of(surface, left) / stretch};
 }
 
 }  // namespace
@@ -82,7 +106,8 @@ HandForce contact_force(const TouchScene& scene, std::span<const Touch> touching
         if (force.contact_count == HandForce::max_contacts) {
             break;
         }
-        const auto [wall, wanted, secant] = press(feel_at(scene, contact), stretched, safe);
+        const auto [wall, wanted, secant] =
+            press(feel_at(scene, contact), scene.body(contact.body).shape->give, stretched, safe);
         const Vec3 surface_way = way_of_surface(scene, contact);
         const double approach = -glm::dot(hand_velocity - surface_way / seconds, contact.normal);
         const double spring = secant * contact.pressure;

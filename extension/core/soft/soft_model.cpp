@@ -33,6 +33,14 @@ Stiffness stiffness_of(const SoftMaterial& m) {
     return {shear, shear * m.poisson_ratio / (1.0 - 2.0 * m.poisson_ratio)};
 }
 
+// Nodes b apart spread a press over a disc that is wider than Hertz's by 3/8 b: fitted to presses of blocks
+// of 2 to 12 cells by spheres of half a cell to two cells (docs/soft.md).
+LocalCompliance give_of(const SoftMaterial& material, const Vec3& cell_size) {
+    constexpr double widening = 3.0 / 8.0;
+    const double edge = (cell_size.x + cell_size.y + cell_size.z) / 3.0;
+    return {material.stiffness / (1.0 - material.poisson_ratio * material.poisson_ratio), widening * edge};
+}
+
 struct Gradients {
     std::array<Vec3, 4> of_corner;
 };
@@ -107,6 +115,7 @@ public:
         const bool is_sheet = model.tetrahedra.empty() && model.cells.empty();
         model.wanted_iterations =
             is_sheet ? 1 : iterations_for(model.design.material, model.size, model.design.seconds);
+        model.give = give_of(model.design.material, draft_.cell_size);
         model.anchors = std::move(draft_.anchors);
         model.surface = std::move(draft_.surface);
         model.closed = is_closed(model.surface);

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "core/geometry/local_compliance.hpp"
 #include "core/mesh/triangle_mesh.hpp"
 #include "core/soft/rotation_lanes.hpp"
 #include "core/soft/soft_design.hpp"
@@ -79,6 +80,7 @@ struct SoftModel {
     TriangleMesh surface;             // at rest
     std::size_t element_count = 0;    // tetrahedra, cells and springs
     bool closed = false;              // the surface bounds a volume
+    LocalCompliance give;             // under a sphere that presses it, of a body of cells
     SparseFactor factor;
     double size = 0.0;  // diagonal of the box around it (unit: meters)
     // After so many iterations a step leaves at most a fiftieth of what the bound adds to the inertia of a

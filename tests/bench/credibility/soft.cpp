@@ -3,6 +3,7 @@
 
 #include "core/soft/soft_body.hpp"
 #include "credibility/cases.hpp"
+#include "credibility/pressed_block.hpp"
 #include "shared/meshes.hpp"
 
 namespace tactus::bench {
@@ -118,49 +119,37 @@ void measure_beam(Results& results, const std::string& name, double stiffness) {
              right);
 }
 
-// Force over way of a hand's spring that presses the middle of a block's top, 10 mm far.
-double press_stiffness(int cells) {
-    constexpr double half = 0.04, spring = 500.0;
-    SoftBody block =
-        made_of(shared::grid_box(Vec3(half), 8), {.stiffness = 1e4, .damping = 0.02, .drag = 5.0},
-                {Vec3(-1.0), Vec3(1.0, 1e-3 - half, 1.0), {}}, cells);
-    const Vec3 middle(1.0 / 3.0);
-    std::uint32_t nearest = 0;
-    const auto distance_of = [&](std::uint32_t triangle) {
-        return glm::length(block.surface_point(triangle, middle) - Vec3(0.0, half, 0.0));
-    };
-    for (std::uint32_t t = 1; t < block.model().surface.triangles.size(); ++t)
-        nearest = distance_of(t) < distance_of(nearest) ? t : nearest;
-    const Vec3 start = block.surface_point(nearest, middle);
-    Vec3 hand = start;
-    for (int i = 0; i < 1500; ++i) {
-        const Vec3 way(0.0, i < 100 ? -1e-4 : 0.0, 0.0);
-        const Vec3 force = spring * (hand - block.surface_point(nearest, middle));
-        const SoftPush push{nearest, middle, force, spring, 0.0, way / tick, true};
-        hand += way;
-        block.step(Vec3(0.0), {&push, 1}, {});
-    }
-    return glm::length(block.pressed(0)) / glm::length(block.surface_point(nearest, middle) - start);
+// How stiff the same block of 10 kPa is to a hand at the end of the touch's spring, under a fingertip in the
+// middle of its top: the force over how deep the hand is beyond what that spring gives.
+double stiffness_of(const PressedBlock& press, double force) {
+    return force / (press.depth - force / press.spring);
 }
 
-// Force over depth of a fingertip of 10 mm radius in a session, its hand 10 mm below the same block's top.
-double fingertip_stiffness(int cells) {
-    constexpr double half = 0.04, radius = 0.01, spring = 500.0;
+double fingertip_stiffness(const PressedBlock& press, int cells) {
     const SoftBody block =
-        made_of(shared::grid_box(Vec3(half), 16), {.stiffness = 1e4, .damping = 0.02, .drag = 5.0},
-                {Vec3(-1.0), Vec3(1.0, 1e-3 - half, 1.0), {}}, cells);
-    Stage stage(radius, {0.0, half + radius + 1e-4, 0.0}, Vec3(0.0));
+        made_of(shared::grid_box(Vec3(press.half), 16),
+                {.stiffness = press.modulus, .poisson_ratio = press.poisson, .damping = 0.02, .drag = 5.0},
+                {Vec3(-1.0), Vec3(1.0, 1e-3 - press.half, 1.0), {}}, cells);
+    Stage stage(press.radius, {0.0, press.half + press.radius + 1e-4, 0.0}, Vec3(0.0));
     BodyAddition addition;
     addition.soft = std::make_shared<const SoftModel>(block.model());
-    addition.touch_material = {spring, 0.0, 0.0, 0.0};
+    addition.touch_material = {press.spring, 0.0, 0.0, 0.0};
     stage.session().add_body(addition);
     stage.wait(0.01);
-    for (int i = 0; i < 101; ++i)
+    const double lowest = press.half + press.radius - press.depth;
+    while (stage.hand.position.y > lowest + 1e-9)
         stage.go(stage.hand.position - Vec3(0.0, 1e-4, 0.0));
     stage.wait(1.5);
     stage.session().refresh();
-    const ProxyState& proxy = stage.session().snapshot().proxies[0];
-    return proxy.force.y / (half + radius - proxy.position.y);
+    return stiffness_of(press, stage.session().snapshot().proxies[0].force.y);
+}
+
+void measure_press(Results& results, const std::string& name, const PressedBlock& press,
+                   std::initializer_list<int> cells) {
+    const double right = stiffness_of(press, force_of(press));
+    for (const int count : cells)
+        add_case(results, "soft_press." + name + std::to_string(count) + "_cells",
+                 fingertip_stiffness(press, count), right);
 }
 
 }  // namespace
@@ -175,10 +164,10 @@ void measure_soft(Results& results) {
     measure_beam(results, "100kPa", 1e5);
     measure_beam(results, "1MPa", 1e6);
     measure_beam(results, "10MPa", 1e7);
-    for (const int cells : {2, 4, 6, 8, 10, 12})
-        results.add("soft_press.stiffness_" + std::to_string(cells) + "_cells", press_stiffness(cells));
-    for (const int cells : {2, 4, 6, 8, 10, 12})
-        results.add("soft_press.fingertip_" + std::to_string(cells) + "_cells", fingertip_stiffness(cells));
+    measure_press(results, "", {}, {2, 4, 6, 8, 10, 12});
+    measure_press(results, "shallow_", {.depth = 0.004}, {8, 12});
+    measure_press(results, "wide_", {.radius = 0.02, .finest = 2e-3}, {8, 12});
+    measure_press(results, "narrow_", {.radius = 0.005, .depth = 0.005, .finest = 1e-3}, {8, 12});
 }
 
 }  // namespace tactus::bench
