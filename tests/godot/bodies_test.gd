@@ -228,6 +228,7 @@ func test_friction_and_bounce_between_bodies() -> void:
 # A large inertia about one axis keeps a body upright. No body has it, but it is felt and falls all the same.
 func test_an_impossible_inertia_is_named_and_keeps_the_body_upright() -> void:
 	var world := add_world()
+	world.gravity = Vector3(0, -9.81, 0)
 	var body := with_shape(RigidBody3D.new(), box(Vector3(0.1, 0.1, 0.1))) as RigidBody3D
 	body.name = "Upright"
 	body.inertia = Vector3(1000, 0.01, 0.01)

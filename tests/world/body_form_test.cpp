@@ -76,7 +76,7 @@ TEST(BodyForm, AnInertiaThatNoBodyHasBecomesAPossibleOneAndIsNamed) {
     plan.makings.inertia = Vec3(1e3, 0.1, 0.2);
     const BuiltBody built = build_body(plan, run_serially);
     ASSERT_TRUE(built.buildable);
-    EXPECT_TRUE(built.body.ready()) << built.body.error();
+    EXPECT_EQ(built.body.error, "");
     const Vec3 has = *built.addition.description.inertia;
     EXPECT_DOUBLE_EQ(has.x, 1e3);
     EXPECT_NEAR(has.y, 500.0, 0.1);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -66,9 +67,10 @@ TEST(LocalCompliance, AHandPressesBothInSeries) {
         }
         ASSERT_NEAR(force.total.y, indentation_at(shape->give, radius, low).force, 1e-6) << i;
         const Wall& wall = force.contacts[0].wall;
-        if (i > 20) {
-            ASSERT_NEAR((force.total.y - force_before) / step, 0.5 * (wall.stiffness + wall_before), 2.0)
-                << i;
+        if (i > 20) {  // the slope has a step where the disc is as wide as the sphere
+            const double slope = (force.total.y - force_before) / step;
+            ASSERT_GT(slope, std::min(wall.stiffness, wall_before) - 1.0) << i;
+            ASSERT_LT(slope, std::max(wall.stiffness, wall_before) + 1.0) << i;
         }
         ASSERT_NEAR(wall.damping, 2.0 * std::pow(wall.stiffness / 800.0, 2.0), 1e-9);
         ASSERT_EQ(force.contacts[0].wanted_stiffness, wall.stiffness);
