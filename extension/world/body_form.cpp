@@ -180,8 +180,8 @@ std::vector<std::string> problems_of(const BodyForm& form) {
 
 // What is no inertia at all is refused when the body is prepared.
 std::string problem_of_inertia(const Vec3& inertia) {
-    const bool is_one = std::min({inertia.x, inertia.y, inertia.z}) > 0.0 &&
-                        std::isfinite(inertia.x + inertia.y + inertia.z);
+    const bool is_one =
+        std::min({inertia.x, inertia.y, inertia.z}) > 0.0 && std::isfinite(inertia.x + inertia.y + inertia.z);
     if (!is_one || is_possible_inertia(inertia)) {
         return "";
     }
