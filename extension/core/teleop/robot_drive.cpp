@@ -26,8 +26,8 @@ Vec3 drive_force(const Wall& coupling, const Vec3& wanted, const Vec3& wanted_ve
     return coupling.stiffness * (wanted - position) + coupling.damping * (wanted_velocity - velocity);
 }
 
-double follow_speed(double told, double most) {
-    constexpr double rounding = 1.05, gentle = 0.2;
+double follow_speed(double told, double gentle, double most) {
+    constexpr double rounding = 1.05;
     return std::min(std::max(rounding * told, gentle), most);
 }
 

@@ -57,10 +57,10 @@ TEST(RobotDrive, GoesTowardsTheHandNoFasterThanAllowedAndNoFartherThanItReaches)
 }
 
 TEST(RobotDrive, GoesNoFasterThanTheHandAndGentlyToOneThatRests) {
-    EXPECT_NEAR(follow_speed(0.5, 1.0), 0.5, 0.03);
-    EXPECT_DOUBLE_EQ(follow_speed(0.0, 1.0), 0.2);
-    EXPECT_DOUBLE_EQ(follow_speed(3.0, 1.0), 1.0);
-    EXPECT_DOUBLE_EQ(follow_speed(0.0, 0.05), 0.05);
+    EXPECT_NEAR(follow_speed(0.5, 0.2, 1.0), 0.5, 0.03);
+    EXPECT_DOUBLE_EQ(follow_speed(0.0, 0.2, 1.0), 0.2);
+    EXPECT_DOUBLE_EQ(follow_speed(3.0, 0.2, 1.0), 1.0);
+    EXPECT_DOUBLE_EQ(follow_speed(0.0, 0.2, 0.05), 0.05);
 }
 
 TEST(RobotDrive, TurnsTowardsTheHandTheShortWayNoFasterThanAllowed) {
