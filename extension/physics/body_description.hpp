@@ -64,7 +64,7 @@ struct BodyDescription {
 
     CollisionLayers collision;
     bool continuous = false;  // sweep the body along its way, so that a fast one cannot pass a thin one
-    bool can_sleep = true;
+    bool can_sleep = true;    // while it is dynamic
 
     // Axes of the world along and about which the body may not move: x, y, z.
     bool lock_linear[3] = {false, false, false};

@@ -23,6 +23,7 @@ struct BodyRecord {
     double linear_damping = 0.0;          // (unit: 1/seconds)
     double angular_damping = 0.0;         // (unit: 1/seconds)
     BodyFactors factors;
+    bool can_sleep = true;  // while it is dynamic
     CollisionLayers collision;
     std::size_t layer_pair = 0;    // index in the world's CollisionTable
     bool tree_may_differ = false;  // waits in the world's TreeKeeper

@@ -20,4 +20,10 @@ inline JPH::EMotionType motion_type(Motion motion) {
     return JPH::EMotionType::Static;
 }
 
+// What moves only as it is told rests as soon as nothing moves it, also where it never sleeps while it is
+// dynamic: hundreds that Godot moves and that are far from hands would take the tick's time.
+inline bool may_sleep(Motion motion, bool can_sleep) {
+    return can_sleep || motion != Motion::Dynamic;
+}
+
 }  // namespace tactus

@@ -246,6 +246,7 @@ bool PhysicsWorld::set_motion(BodyId id, Motion motion) {
     ++impl_->structure;
     impl_->forget_pushes(*body);
     impl_->wake_around(*body);
+    body->SetAllowSleeping(may_sleep(motion, impl_->record(*body).can_sleep));
     impl_->bodies().SetMotionType(body->GetID(), motion_type(motion), JPH::EActivation::Activate);
     return true;
 }
@@ -311,7 +312,8 @@ void PhysicsWorld::set_can_sleep(BodyId id, bool can_sleep) {
     JPH::Body* body = impl_->find(id);
     if (body == nullptr || !body->CanBeKinematicOrDynamic())
         return;
-    body->SetAllowSleeping(can_sleep);
+    impl_->record(*body).can_sleep = can_sleep;
+    body->SetAllowSleeping(may_sleep(motion_of(*body), can_sleep));
     if (!can_sleep)
         wake(id);
 }

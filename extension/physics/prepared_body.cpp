@@ -205,7 +205,8 @@ PreparedBody prepare(const BodyDescription& description) {
     settings.mMotionType = motion_type(description.motion);
     settings.mMotionQuality =
         description.continuous ? JPH::EMotionQuality::LinearCast : JPH::EMotionQuality::Discrete;
-    settings.mAllowSleeping = description.can_sleep;
+    record->can_sleep = description.can_sleep;
+    settings.mAllowSleeping = may_sleep(description.motion, description.can_sleep);
     settings.mFriction = stored_friction(description.material);
     settings.mRestitution = stored_restitution(description.material);
     settings.mLinearDamping = settings.mAngularDamping = 0.0f;  // implicit_damping.hpp
@@ -224,6 +225,7 @@ PreparedBody duplicate(const PreparedBody& body) {
     record->collision = original.collision;
     record->may_be_dynamic = original.may_be_dynamic;
     record->mass = original.mass;
+    record->can_sleep = original.can_sleep;
     record->linear_damping = original.linear_damping;
     record->angular_damping = original.angular_damping;
     record->mass_properties = original.mass_properties;

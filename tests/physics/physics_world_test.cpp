@@ -209,6 +209,28 @@ TEST(PhysicsWorld, KinematicBodyCarriesWhatStandsOnIt) {
     EXPECT_NEAR(world.pose(carried).position.x, 0.2, 2e-3);
 }
 
+TEST(PhysicsWorld, OnlyADynamicBodyIsKeptAwake) {
+    PhysicsWorld world;
+    add(world, ground());
+    BodyDescription restless = box(Vec3(0.1), {0.0, 0.05, 0.0}, 1.0);
+    restless.can_sleep = false;
+    const BodyId id = add(world, restless);
+    run(world, 2000);
+    EXPECT_TRUE(world.awake(id));
+    world.set_motion(id, Motion::Kinematic);
+    run(world, 2000);
+    EXPECT_FALSE(world.awake(id));
+    world.set_can_sleep(id, false);
+    run(world, 2000);
+    EXPECT_FALSE(world.awake(id));
+    world.move_to(id, {{0.01, 0.05, 0.0}, Quat(1.0, 0.0, 0.0, 0.0)}, tick);
+    world.step(tick);
+    EXPECT_NEAR(world.pose(id).position.x, 0.01, 1e-6);
+    world.set_motion(id, Motion::Dynamic);
+    run(world, 2000);
+    EXPECT_TRUE(world.awake(id));
+}
+
 TEST(PhysicsWorld, FrozenBodyStaysAndUnfrozenFalls) {
     PhysicsWorld world;
     BodyDescription frozen = box(Vec3(0.1), {0.0, 1.0, 0.0}, 1.0);
