@@ -392,14 +392,20 @@ func _rest_at(place: Vector3) -> HapticPath:
 
 ## Both sides hear each other, and the operator's model is complete; then the hand sets out.
 func _meet(link: MMTLink, device: HapticDevice) -> bool:
+	var bodies := link.get_parent().find_children("*", "PhysicsBody3D", true, false).size()
 	var deadline := Time.get_ticks_msec() + int(LONGEST_MEETING * 1000.0)
-	while not link.is_peer_connected() or not link.get_statistics().get("model_complete", true):
+	while not link.is_peer_connected() or not _knows(link.get_statistics(), bodies):
 		if Time.get_ticks_msec() > deadline or link.get_state() == MMTLink.STATE_LEFT:
 			return false
 		await get_tree().process_frame
 	if _way != null:
 		device.path = _way
 	return true
+
+
+## `bodies`: of the scene. Where the far side has none, its model is complete at once.
+func _knows(statistics: Dictionary, bodies: int) -> bool:
+	return statistics.objects >= bodies and statistics.get("model_complete", true)
 
 
 func _is_over(world: HapticWorld, link: MMTLink, begin: float) -> bool:
