@@ -17,15 +17,6 @@ constexpr Wall wanted_coupling{1000.0, 5.0};
 // Less is noise of the observer, not contact (unit: newtons).
 constexpr double least_contact = 0.3;
 
-// Of a robot that comes to a hand that rests: it may touch something on its way that the hand does not (unit:
-// meters per second).
-constexpr double coming_speed = 0.1;
-
-// So near is the robot where the hand is (unit: meters).
-constexpr double arrived = 1e-3;
-// A robot that would have pressed too hard stays until the hand is elsewhere (unit: meters).
-constexpr double moved_on = 5e-3;
-
 // Of a robot that does not say what it weighs (unit: kilograms).
 constexpr double usual_mass = 0.2;
 
@@ -111,8 +102,7 @@ void RobotSide::play(SessionLoop& loop, std::size_t index, const SessionLoop::Pr
     const double scale = robot.workspace.scale;
     const RobotBody body = body_of(robot.capabilities);
     if (!pointer.holds) {
-        pointer.holds = pointer.comes = true;
-        pointer.waits_for.reset();
+        pointer.holds = true;
         pointer.target = slot.hand;
         pointer.passivity.reset();
         pointer.observer.reset();
@@ -125,30 +115,12 @@ void RobotSide::play(SessionLoop& loop, std::size_t index, const SessionLoop::Pr
     statistics_.sample = std::max(statistics_.sample, pointer.played.sequence);
     const Wall coupling = coupling_of(robot);
     const Vec3 before = pointer.target;
-    const Vec3 hand = hand_of(pointer, slot, coupling);
-    pointer.comes = pointer.comes && glm::distance(hand, slot.hand) > arrived;
-    const bool yields = presses_too_hard(pointer);
-    if (yields) {
-        pointer.waits_for = hand;
-    } else if (!pointer.comes || (pointer.waits_for && glm::distance(hand, *pointer.waits_for) > moved_on)) {
-        pointer.waits_for.reset();
-    }
-    const Vec3 wanted = yields ? slot.hand : pointer.waits_for ? before : hand;
-    const double most = settings().stand_in.speed;
-    const double gentle = yields ? most : pointer.comes ? coming_speed : gentle_speed;
-    pointer.target =
-        next_target(before, wanted, follow_speed(glm::length(pointer.played.velocity), gentle, most),
-                    robot.workspace.pose.position, robot.capabilities.radius * scale, seconds_);
+    const double speed = follow_speed(glm::length(pointer.played.velocity), settings().stand_in.speed);
+    pointer.target = next_target(before, hand_of(pointer, slot, coupling), speed,
+                                 robot.workspace.pose.position, robot.capabilities.radius * scale, seconds_);
     pointer.passivity.went(pointer.target);
     pointer.velocity = (pointer.target - before) / seconds_;
     pointer.coupling = coupling;
-}
-
-// With a model: until a robot that comes is where the hand is, it presses no harder than that is pressed,
-// which may have begun inside a body of the model.
-bool RobotSide::presses_too_hard(const Pointer& pointer) const {
-    return pointer.comes && !settings().traditional &&
-           glm::length(pointer.contact) > glm::length(pointer.played.force) + least_contact;
 }
 
 // Where the operator's stand-in would have the robot.

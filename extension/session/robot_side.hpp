@@ -10,8 +10,6 @@
 // robot_side.cpp leads what is held like a fingertip, robot_tools.cpp what carries a tool.
 #pragma once
 
-#include <optional>
-
 #include "core/teleop/robot_drive.hpp"
 #include "session/body_telling.hpp"
 #include "session/played_hands.hpp"
@@ -39,15 +37,13 @@ private:
         Playing playing = Playing::waiting;
         FarPassivity passivity;
         ContactObserver observer;
-        bool holds = false;             // an operator's hand is there and the robot answers
-        bool comes = false;             // and has not been where that is yet
-        std::optional<Vec3> waits_for;  // there was the hand when the robot that comes pressed too hard
-        Vec3 target{0.0};               // in this side's scene (unit: meters)
-        Vec3 velocity{0.0};             // of the target (unit: meters per second)
-        Wall coupling;                  // of the robot to the target
-        Vec3 contact{0.0};              // on the robot, in this side's scene (unit: newtons)
-        Vec3 coupled{0.0};              // by the coupling, on the target, one tick ago (unit: newtons)
-        Vec3 had_hand{0.0};             // one tick ago (unit: meters)
+        bool holds = false;  // an operator's hand is there and the robot answers
+        Vec3 target{0.0};    // in this side's scene (unit: meters)
+        Vec3 velocity{0.0};  // of the target (unit: meters per second)
+        Wall coupling;       // of the robot to the target
+        Vec3 contact{0.0};   // on the robot, in this side's scene (unit: newtons)
+        Vec3 coupled{0.0};   // by the coupling, on the target, one tick ago (unit: newtons)
+        Vec3 had_hand{0.0};  // one tick ago (unit: meters)
         Vec3 force_sent{0.0};
         Nanoseconds force_sent_at = 0;
     };
@@ -82,7 +78,6 @@ private:
     static RobotBody body_of(const DeviceCapabilities& robot);
     Wall coupling_of(const RobotView& robot) const;
     void play(SessionLoop& loop, std::size_t index, const SessionLoop::ProxySlot& slot);
-    bool presses_too_hard(const Pointer& pointer) const;
     Vec3 hand_of(Pointer& pointer, const SessionLoop::ProxySlot& slot, const Wall& coupling) const;
     Vec3 port_force(const Pointer& pointer) const;
     Vec3 told_force(const Pointer& pointer) const;

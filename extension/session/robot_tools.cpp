@@ -79,9 +79,9 @@ void RobotSide::lead(Tool& tool, const ToolSlot& slot, const RobotView& robot) c
     const double length = slot.coupling_length();
     const Pose& grasp = slot.use.grasp;
     const double spin = glm::length(tool.played.spin);
-    const double turning = follow_speed(spin * reach, gentle_speed, most) / reach;
-    const double speed = follow_speed(glm::length(tool.played.velocity) + spin * glm::length(grasp.position),
-                                      gentle_speed, most);
+    const double turning = follow_speed(spin * reach, most) / reach;
+    const double speed =
+        follow_speed(glm::length(tool.played.velocity) + spin * glm::length(grasp.position), most);
     const Pose before = tool.target;
     tool.coupling = coupling_of(robot);
     tool.turning = {tool.coupling.stiffness * length * length, tool.coupling.damping * length * length};

@@ -42,20 +42,5 @@ TEST(LossyHands, NothingGetsThroughForAWhile) {
     expect_no_more_than_the_operator("outage_300ms");
 }
 
-// The model's hand begins inside the plate and feels nothing: nor does the far one press. A robot hits with
-// its mass, and is pressed no longer.
-TEST(LossyHands, AHandThatComesBackInsideABodyPressesNothing) {
-    for (const LossyHand hand : {LossyHand::fingertip, LossyHand::robot}) {
-        for (const Absence absence : {Absence::pointer, Absence::device}) {
-            SCOPED_TRACE(static_cast<int>(hand) * 2 + static_cast<int>(absence));
-            const AbsentFigures figures = run_absent(hand, absence);
-            EXPECT_GT(figures.pressed, 1.0);
-            EXPECT_LT(figures.away, 0.1);
-            EXPECT_LE(figures.back.excess(), hand == LossyHand::robot ? 1.5 : 1.0);
-            EXPECT_LT(figures.lasting, 1.0);
-        }
-    }
-}
-
 }  // namespace
 }  // namespace tactus::lossy_hands_test

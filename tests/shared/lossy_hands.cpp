@@ -102,36 +102,6 @@ public:
         return figures_;
     }
 
-    AbsentFigures run_absent(Absence absence) {
-        const Reach motion = motion_of(one_.hand);
-        for (int i = 0; i < settled; ++i) {
-            tick();
-        }
-        device_.position.y = motion.high;
-        draw(motion.press, 0.1);
-        const auto far_force = [&] { return glm::length(there().proxies[0].force); };
-        AbsentFigures figures;
-        figures.pressed = far_force();
-        const auto hold = [&](bool is_there) {
-            ProxyDescription pointer = pointer_;
-            pointer.enabled = is_there;
-            absence == Absence::pointer ? near_.set_proxy(0, pointer) : void(device_.connected = is_there);
-        };
-        hold(false);
-        for (int i = 0; i < 500; ++i) {
-            tick();
-        }
-        figures.away = far_force();
-        hold(true);
-        figures_ = {};
-        for (int i = 0; i < 2000; ++i) {
-            tick();
-            figures.lasting = i < 1000 ? 0.0 : std::max(figures.lasting, far_force());
-        }
-        figures.back = figures_;
-        return figures;
-    }
-
 private:
     void begin(Session& session, Side side, std::uint64_t epoch, Link& link,
                const std::shared_ptr<TeleopPort>& port) const {
@@ -145,7 +115,7 @@ private:
         const SessionHandle handle = session.add_body(plate()).handle;
         port->bindings.try_push({handle, handle});
     }
-    void add_hand(Session& session, Device& device) {
+    void add_hand(Session& session, Device& device) const {
         const SessionHandle made = session.add_device(device, workspace()).handle;
         if (one_.hand == LossyHand::tool) {
             ToolUse use;
@@ -156,7 +126,6 @@ private:
             pointer.device = made;
             pointer.settings.radius = radius;
             session.add_proxy(pointer);
-            pointer_ = pointer;
         }
     }
     // Its tip is a hand of a place of its own, where the plate is real.
@@ -239,7 +208,6 @@ private:
     std::shared_ptr<TeleopPort> far_port_ = std::make_shared<TeleopPort>();
     std::shared_ptr<TipExchange> exchange_ = std::make_shared<TipExchange>();
     TurningHand device_, far_device_;
-    ProxyDescription pointer_;  // of the operator
     std::unique_ptr<TipDevice> tip_;
     std::unique_ptr<EmulatedRobot> robot_;
     Session near_{room()}, far_{room()};
@@ -285,14 +253,6 @@ std::vector<LossyCase> lossy_cases() {
 
 LossyFigures run_lossy(const LossyCase& one, std::uint64_t seed) {
     return LossyRun(one, seed).run();
-}
-
-AbsentFigures run_absent(LossyHand hand, Absence absence) {
-    LossyCase one;
-    one.hand = hand;
-    one.conditions.delay = from_seconds(0.025);
-    one.presses = true;
-    return LossyRun(one, 1).run_absent(absence);
 }
 
 }  // namespace tactus::shared

@@ -26,9 +26,9 @@ Vec3 drive_force(const Wall& coupling, const Vec3& wanted, const Vec3& wanted_ve
     return coupling.stiffness * (wanted - position) + coupling.damping * (wanted_velocity - velocity);
 }
 
-double follow_speed(double told, double gentle, double most) {
-    constexpr double rounding = 1.05;
-    return std::min(std::max(rounding * told, gentle), most);
+double follow_speed(double told, double most) {
+    constexpr double catching_up = 1.05, gentle = 0.2;
+    return std::min(std::max(catching_up * told, gentle), most);
 }
 
 Vec3 next_target(const Vec3& before, const Vec3& hand, double speed, const Vec3& middle, double radius,

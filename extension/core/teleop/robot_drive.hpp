@@ -30,11 +30,10 @@ Vec3 friction_of(const RobotBody& body, const Vec3& velocity);
 Vec3 drive_force(const Wall& coupling, const Vec3& wanted, const Vec3& wanted_velocity, const Vec3& position,
                  const Vec3& velocity);
 
-// How fast the target of a hand that moves with `told` may go: no faster than the hand, and at most `gentle`
-// where that is slower. A robot hits with its mass, so that one that has missed samples does not hurry after
-// them (unit: meters per second).
-inline constexpr double gentle_speed = 0.2;
-double follow_speed(double told, double gentle, double most);
+// How fast the target of a hand that moves with `told` may go: a twentieth faster than the hand, and at most
+// 0.2 m/s where that is slower. A robot hits with its mass, so that one that has missed samples does not
+// hurry after them (unit: meters per second).
+double follow_speed(double told, double most);
 
 // Where the robot is sent in this tick: towards the hand, no faster than `speed`, and no farther from the
 // middle of its workspace than `radius` (units: meters, meters per second).

@@ -56,11 +56,11 @@ TEST(RobotDrive, GoesTowardsTheHandNoFasterThanAllowedAndNoFartherThanItReaches)
     EXPECT_NEAR(at.x, 0.04, 1e-12);
 }
 
-TEST(RobotDrive, GoesNoFasterThanTheHandAndGentlyToOneThatRests) {
-    EXPECT_NEAR(follow_speed(0.5, 0.2, 1.0), 0.5, 0.03);
-    EXPECT_DOUBLE_EQ(follow_speed(0.0, 0.2, 1.0), 0.2);
-    EXPECT_DOUBLE_EQ(follow_speed(3.0, 0.2, 1.0), 1.0);
-    EXPECT_DOUBLE_EQ(follow_speed(0.0, 0.2, 0.05), 0.05);
+TEST(RobotDrive, GoesGentlyToAHandThatRestsAndATwentiethFasterThanOneThatMoves) {
+    EXPECT_DOUBLE_EQ(follow_speed(0.5, 1.0), 0.525);
+    EXPECT_DOUBLE_EQ(follow_speed(0.0, 1.0), 0.2);
+    EXPECT_DOUBLE_EQ(follow_speed(3.0, 1.0), 1.0);
+    EXPECT_DOUBLE_EQ(follow_speed(0.0, 0.05), 0.05);
 }
 
 TEST(RobotDrive, TurnsTowardsTheHandTheShortWayNoFasterThanAllowed) {
