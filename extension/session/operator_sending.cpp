@@ -49,8 +49,16 @@ void OperatorSide::send(SentHand& sent, const OperatorSample& sample, bool says_
     samples_.add(sample);
 }
 
+// Whether a hand is there for the far side. One that comes and has no room in the model presses nothing
+// there, and nothing at the far side. One that a correction has left no room presses on there.
+bool OperatorSide::is_told(SentHand& sent, bool is_held, bool has_room) const {
+    sent.had_room = is_held && (sent.had_room || has_room || settings().traditional);
+    return sent.had_room && !waits_for_model();
+}
+
 // A hand that was there and is not: said until the far side has heard it, and now and then after that.
 void OperatorSide::send_absence(SentHand& sent, Nanoseconds now) {
+    sent.had_room = false;
     if (sent.since == no_sample) {
         return;
     }
@@ -80,7 +88,7 @@ void OperatorSide::send_sample(SessionLoop& loop, std::size_t index, Nanoseconds
     sample.sequence = sample_;
     sample.time = channel_.link().local_time(now);
     sample.pointer = static_cast<std::uint16_t>(index);
-    sample.connected = device.connected && !waits_for_model();
+    sample.connected = is_told(pointer.sent, device.connected, (slot.state.status & proxy_absent) == 0);
     sample.buttons = device.buttons;
     const Pose& frame = settings().frame;
     sample.position = to_local(frame, slot.hand);

@@ -68,6 +68,7 @@ private:
 
     // What the far side has been sent of a hand.
     struct SentHand {
+        bool had_room = false;  // in the model, since the hand came
         OperatorSample last;
         Nanoseconds at = 0;
         SampleSequence since = no_sample;         // the first one that says what `last` says; no_sample: none
@@ -107,7 +108,6 @@ private:
         bool answered = false;
         bool fixed = false;               // ToolHand::fixed, one tick ago
         Quat turned{1.0, 0.0, 0.0, 0.0};  // where it is, as it is turned there
-        bool has_fit = false;             // into the model, since the hand has held it
         WrenchPassivity passivity;
         SentHand sent;
     };
@@ -225,6 +225,7 @@ private:
     void acknowledge();
     bool is_guessed(const SentHand& sent, const OperatorSample& sample) const;
     bool is_due(const SentHand& sent, Nanoseconds now) const;
+    bool is_told(SentHand& sent, bool is_held, bool has_room) const;
     void send_absence(SentHand& sent, Nanoseconds now);
     void send(SentHand& sent, const OperatorSample& sample, bool says_nothing_new, Nanoseconds now);
     void send_sample(SessionLoop& loop, std::size_t index, Nanoseconds now);

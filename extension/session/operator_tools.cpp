@@ -264,12 +264,8 @@ void OperatorSide::send_tool(SessionLoop& loop, std::size_t index, const ToolSlo
     sample.sequence = sample_;
     sample.time = channel_.link().local_time(now);
     sample.pointer = static_cast<std::uint16_t>(first_tool + index);
-    // One that comes and does not fit in where the hand holds it presses nothing in the model, and nothing at
-    // the far side. One that a correction has left no room presses on there.
-    const bool is_held = device.connected && slot.use.enabled;
-    const bool is_absent = !settings().traditional && (slot.state.status & tool_absent) != 0;
-    tool.has_fit = is_held && (tool.has_fit || !is_absent);
-    sample.connected = is_held && tool.has_fit && !waits_for_model();
+    sample.connected =
+        is_told(tool.sent, device.connected && slot.use.enabled, (slot.state.status & tool_absent) == 0);
     sample.buttons = device.buttons;
     sample.position = place.position;
     sample.velocity = direction_to_local(frame, slot.hand.velocity);

@@ -102,6 +102,41 @@ public:
         return figures_;
     }
 
+    AbsentFigures run_absent(Absence absence) {
+        const Reach motion = motion_of(one_.hand);
+        for (int i = 0; i < settled; ++i) {
+            tick();
+        }
+        device_.position.y = motion.high;
+        draw(motion.press, 0.1);
+        AbsentFigures figures;
+        figures.pressed = far_force();
+        const auto hold = [&](bool is_there) {
+            if (absence == Absence::device) {
+                device_.connected = is_there;
+            } else if (is_tool()) {
+                tool_.enabled = is_there;
+                near_.set_tool(0, tool_);
+            } else {
+                pointer_.enabled = is_there;
+                near_.set_proxy(0, pointer_);
+            }
+        };
+        hold(false);
+        for (int i = 0; i < 500; ++i) {
+            tick();
+        }
+        figures.away = far_force();
+        hold(true);
+        figures_ = {};
+        for (int i = 0; i < 2000; ++i) {
+            tick();
+            figures.lasting = i < 1000 ? 0.0 : std::max(figures.lasting, far_force());
+        }
+        figures.back = figures_;
+        return figures;
+    }
+
 private:
     void begin(Session& session, Side side, std::uint64_t epoch, Link& link,
                const std::shared_ptr<TeleopPort>& port) const {
@@ -115,17 +150,15 @@ private:
         const SessionHandle handle = session.add_body(plate()).handle;
         port->bindings.try_push({handle, handle});
     }
-    void add_hand(Session& session, Device& device) const {
+    void add_hand(Session& session, Device& device) {
         const SessionHandle made = session.add_device(device, workspace()).handle;
         if (one_.hand == LossyHand::tool) {
-            ToolUse use;
-            use.device = made;
-            session.add_tool(make_tool_shape(box({0.015, radius, 0.015}), {1e-3, 200}).shape, use);
+            tool_.device = made;
+            session.add_tool(make_tool_shape(box({0.015, radius, 0.015}), {1e-3, 200}).shape, tool_);
         } else {
-            ProxyDescription pointer;
-            pointer.device = made;
-            pointer.settings.radius = radius;
-            session.add_proxy(pointer);
+            pointer_.device = made;
+            pointer_.settings.radius = radius;
+            session.add_proxy(pointer_);
         }
     }
     // Its tip is a hand of a place of its own, where the plate is real.
@@ -186,12 +219,15 @@ private:
 
     const SessionSnapshot& there() const { return (place_ ? *place_ : far_).snapshot(); }
     bool is_tool() const { return one_.hand == LossyHand::tool; }
+    double far_force() const {  // (unit: newtons)
+        return glm::length(is_tool() ? there().tools[0].force : there().proxies[0].force);
+    }
     double height() const {  // of the far hand (unit: meters)
         return is_tool() ? there().tools[0].pose.position.y : there().proxies[0].position.y;
     }
 
     void note() {
-        const double force = glm::length(is_tool() ? there().tools[0].force : there().proxies[0].force);
+        const double force = far_force();
         constexpr double no_force = 1e-3;
         figures_.touches += !one_.presses && force > no_force && before_ <= no_force ? 1 : 0;
         figures_.beyond += height() < 0.5 * radius ? 1 : 0;
@@ -208,6 +244,8 @@ private:
     std::shared_ptr<TeleopPort> far_port_ = std::make_shared<TeleopPort>();
     std::shared_ptr<TipExchange> exchange_ = std::make_shared<TipExchange>();
     TurningHand device_, far_device_;
+    ProxyDescription pointer_;
+    ToolUse tool_;
     std::unique_ptr<TipDevice> tip_;
     std::unique_ptr<EmulatedRobot> robot_;
     Session near_{room()}, far_{room()};
@@ -253,6 +291,14 @@ std::vector<LossyCase> lossy_cases() {
 
 LossyFigures run_lossy(const LossyCase& one, std::uint64_t seed) {
     return LossyRun(one, seed).run();
+}
+
+AbsentFigures run_absent(LossyHand hand, Absence absence) {
+    LossyCase one;
+    one.hand = hand;
+    one.conditions.delay = from_seconds(0.025);
+    one.presses = true;
+    return LossyRun(one, 1).run_absent(absence);
 }
 
 }  // namespace tactus::shared

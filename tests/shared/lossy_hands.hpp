@@ -34,4 +34,15 @@ struct LossyFigures {
 std::vector<LossyCase> lossy_cases();
 LossyFigures run_lossy(const LossyCase& one, std::uint64_t seed);
 
+// The operator's hand presses and goes while it does: its pointer is switched off, or its device is gone.
+// Half a second later it is there again, inside the plate.
+enum class Absence : std::uint8_t { pointer, device };
+struct AbsentFigures {
+    double pressed = 0.0;  // by the far hand, before (unit: newtons)
+    double away = 0.0;     // by it, when the hand has been away for 0.5 s (unit: newtons)
+    LossyFigures back;     // from then on, for two seconds
+    double lasting = 0.0;  // by it, the most in the second of them (unit: newtons)
+};
+AbsentFigures run_absent(LossyHand hand, Absence absence);
+
 }  // namespace tactus::shared
