@@ -46,7 +46,19 @@ void TreeKeeper::tidy_some() {
         const JPH::Body& body = *system_.GetBodyLockInterfaceNoLock().TryGetBody(id);
         const Tree tree = far_.holds(body) ? Tree::Slowed : body.IsActive() ? Tree::Awake : Tree::Resting;
         system_.GetBodyInterfaceNoLock().SetObjectLayer(id, object_layer(record.layer_pair, tree));
+        note_entry();
     }
+}
+
+// Jolt has room for four nodes to three bodies, and for no fewer than 256. It builds one tree at a time,
+// beside the old one.
+void TreeKeeper::note_entry() {
+    constexpr std::size_t in_small_worlds = 32;
+    if (++entries_ < in_small_worlds + records_.size() / 32)
+        return;
+    entries_ = 0;
+    constexpr float no_time = 0.0f;  // builds the next tree that has changed, and does nothing else
+    system_.Update(no_time, 1, nullptr, nullptr);
 }
 
 WakeJournal::WakeJournal(JPH::PhysicsSystem& system, std::size_t capacity)

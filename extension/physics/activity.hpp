@@ -37,11 +37,16 @@ public:
     void forget(JPH::BodyID id);  // the body leaves the world
     void tidy_some();
 
+    // A body has entered a tree, which may take a node for it. What leaves gives none back until Jolt builds
+    // the tree anew: in its steps, and here, since where nothing moves there is none.
+    void note_entry();
+
 private:
     JPH::PhysicsSystem& system_;
     std::vector<BodyRecord*>& records_;
     const FarIslands& far_;
     std::vector<JPH::BodyID> waiting_;  // never more than there are bodies
+    std::size_t entries_ = 0;           // since a tree was built here
 };
 
 // The last resting states that were left, newest last, numbered without end.

@@ -88,6 +88,7 @@ BodyId PhysicsWorld::add(PreparedBody& body) {
     impl_->bodies().SetObjectLayer(
         id, object_layer(pair, added.CanBeKinematicOrDynamic() ? Tree::Awake : Tree::Still));
     impl_->bodies().AddBody(id, JPH::EActivation::Activate);
+    impl_->trees.note_entry();
     impl_->wake_around(added);
     return {id.GetIndexAndSequenceNumber()};
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "scene.hpp"
 
@@ -46,6 +47,31 @@ TEST(PhysicsWorld, StaticSceneNeverNeedsAStep) {
     wall.motion = Motion::Static;
     add(world, wall);
     EXPECT_FALSE(world.anything_awake());
+}
+
+// Jolt's trees of bodies have a fixed number of nodes, and end the program where these run out.
+TEST(PhysicsWorld, BodiesMayComeAndGoForEverWhileNothingMoves) {
+    for (const std::uint32_t many : {10u, 100u, 190u, 1000u}) {
+        SCOPED_TRACE(many);
+        PhysicsSettings settings;
+        settings.max_bodies = many + 1;
+        PhysicsWorld world(settings);
+        std::vector<BodyId> ids;
+        for (std::uint32_t i = 0; i < many; ++i) {
+            BodyDescription wall = box(Vec3(0.1), {0.1 * i, -0.05, 0.0}, 1.0);
+            wall.motion = Motion::Static;
+            ids.push_back(add(world, wall));
+        }
+        for (std::uint32_t i = 0; i < 20'000; ++i) {
+            BodyId& id = ids[i * 7919u % many];
+            PreparedBody wall = world.remove(id);
+            id = world.add(wall);
+        }
+        EXPECT_FALSE(world.anything_awake());
+        const BodyId dropped = add(world, box(Vec3(0.05), {0.1 * (many / 2), 0.03, 0.0}, 1.0));
+        run(world, 1000);
+        EXPECT_NEAR(world.pose(dropped).position.y, 0.025, 5e-5);
+    }
 }
 
 TEST(PhysicsWorld, ForceWakesAndAccelerates) {
