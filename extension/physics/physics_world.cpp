@@ -425,12 +425,14 @@ std::uint32_t PhysicsWorld::step(double seconds) {
     const std::uint64_t overflows = impl_->memory.overflows();
     const LoopMemoryScope scope(impl_->memory);
     impl_->add_pushes();
-    std::uint32_t status = impl_->update(seconds, impl_->settings.velocity_iterations);
+    constexpr std::uint64_t between_trees = 4;  // (unit: steps)
+    std::uint32_t status =
+        impl_->update(seconds, impl_->settings.velocity_iterations, impl_->steps % between_trees == 0);
     impl_->note_given(seconds);
     impl_->remove_pushes();
     impl_->far.plan(seconds);
     while (const SlowRate* rate = impl_->far.begin_turn()) {
-        status |= impl_->update(seconds * rate->steps, rate->iterations);
+        status |= impl_->update(seconds * rate->steps, rate->iterations, false);
         impl_->far.end_turn();
     }
     impl_->far.finish();

@@ -123,7 +123,7 @@ void PhysicsWorld::Impl::wake_around(const JPH::Body& body) {
     bodies().ActivateBodiesInAABox(box, MovingOnly(), JPH::ObjectLayerFilter());
 }
 
-std::uint32_t PhysicsWorld::Impl::update(double seconds, int iterations) {
+std::uint32_t PhysicsWorld::Impl::update(double seconds, int iterations, bool builds_trees) {
     const std::span<const JPH::BodyID> active{system.GetActiveBodiesUnsafe(JPH::EBodyType::RigidBody),
                                               system.GetNumActiveBodies(JPH::EBodyType::RigidBody)};
     if (active.empty())
@@ -141,6 +141,7 @@ std::uint32_t PhysicsWorld::Impl::update(double seconds, int iterations) {
     spin.begin_step(active, records, static_cast<float>(seconds));
     damping.begin_step(active, records, static_cast<float>(seconds));
     joints.begin_step(swing);
+    jobs.build_trees(builds_trees);
     activity.in_step(true);
     const JPH::EPhysicsUpdateError error =
         system.Update(static_cast<float>(seconds), settings.sub_steps, &step_memory, &jobs);

@@ -44,7 +44,7 @@ struct PhysicsWorld::Impl {
     void wake_around(const JPH::Body& body);
 
     // One step of Jolt with at least so many iterations, and what it moves added to `moved`. StepStatus bits.
-    std::uint32_t update(double seconds, int iterations);
+    std::uint32_t update(double seconds, int iterations, bool builds_trees);
 
     // Of those in `moved` from `first` on. True where there was one.
     bool put_back_the_lost(std::size_t first);
