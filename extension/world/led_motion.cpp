@@ -46,20 +46,26 @@ BodyMotion LedMotion::expected() const {
             before_.motion.angular_velocity + sent_.angular - in_it.angular};
 }
 
-void LedMotion::note_unknown(const BodyCorrection& correction, double seconds) {
-    const Vec3 unknown = pull_before_ + correction.linear / seconds;
-    const Vec3 unknown_spin = spin_up_before_ + correction.angular / seconds;
+// The model as it was one frame ago had been pushed by what the engine's body shows now. Of `besides`, by
+// which the engine's velocity has changed more than the model's, returns what is not of its mass.
+Vec3 LedMotion::without_mass(const Vec3& besides, bool is_seen) {
+    if (before_.mass <= 0.0) {
+        return besides;
+    }
+    const double told = before_.mass / before_.corrected.mass;
+    const Vec3 change = besides + pushed_ / before_.mass;
+    if (is_seen) {
+        mass_.note(pushed_, change, told);
+    }
+    return change - pushed_ / (told * mass_.factor());
+}
+
+void LedMotion::note_unknown(const Vec3& besides, const Vec3& angular, double seconds) {
+    const Vec3 unknown = besides / seconds;
+    const Vec3 unknown_spin = spin_up_before_ + angular / seconds;
     pull_before_ = std::exchange(pull_, agreed(unknown, std::exchange(unknown_, unknown), least_pull));
     spin_up_before_ = std::exchange(
         spin_up_, agreed(unknown_spin, std::exchange(unknown_spin_, unknown_spin), least_spin_up));
-}
-
-// The model as it was one frame ago had been pushed by what the engine's body shows now.
-void LedMotion::note_mass(const BodyCorrection& correction, double seconds) {
-    if (before_.mass > 0.0) {
-        const Vec3 besides = correction.linear + pull_before_ * seconds;
-        mass_.note(pushed_, besides + pushed_ / before_.mass, before_.mass / before_.corrected.mass);
-    }
 }
 
 // Where the model is that has come as far as the engine's body.
@@ -103,10 +109,8 @@ LedMotion::Frame LedMotion::frame(const BodyMotion& engines, const LedState& mod
         const Vec3 pull = pull_, spin_up = spin_up_;
         const double mass = mass_.factor();
         const bool is_even = std::abs(late_) < 0.5 * seconds;  // else pushes of several frames come in one
-        if (!was_put_there && is_even) {
-            note_mass(correction, seconds);
-        }
-        note_unknown(correction, seconds);
+        const Vec3 besides = correction.linear + pull_before_ * seconds;
+        note_unknown(without_mass(besides, !was_put_there && is_even), correction.angular, seconds);
         correction.mass = mass_.factor();
         correction.acceleration = pull_;
         correction.spin_up = spin_up_;

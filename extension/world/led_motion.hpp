@@ -23,7 +23,8 @@
 // one says, an impulse, does not.
 //
 // The part of e that goes with what hands gave is no acceleration but another mass (seen_mass.hpp). As an
-// acceleration it would come two frames late, and make a body swing between two fingers.
+// acceleration it would come two frames late, and make a body swing between two fingers. What the found mass
+// explains is left out of the acceleration: it would count twice.
 //
 // Plain values.
 #pragma once
@@ -53,8 +54,8 @@ public:
 
 private:
     BodyMotion expected() const;
-    void note_unknown(const BodyCorrection& correction, double seconds);
-    void note_mass(const BodyCorrection& correction, double seconds);
+    Vec3 without_mass(const Vec3& besides, bool is_seen);
+    void note_unknown(const Vec3& besides, const Vec3& angular, double seconds);
     void note_lead(const LedState& model, double seconds, double tick);
     BodyMotion without_lead(const BodyMotion& body, double lead) const;
 

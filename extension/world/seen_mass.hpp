@@ -3,10 +3,13 @@
 //
 // A push of impulse p changes the velocity by p / m, and other forces by something besides. So 1 / m is the
 // slope of the line through the last frames' changes over their impulses (least squares that forget), where
-// they are on a line.
+// they are on a line. The last frame before a push tells what other forces do, so that one pushed frame is
+// enough: a body that bounces off a finger touches it for a few frames in all.
 //
 // Plain values.
 #pragma once
+
+#include <optional>
 
 #include "core/math/types.hpp"
 
@@ -27,6 +30,9 @@ public:
     double factor() const { return factor_; }
 
 private:
+    void add(const Vec3& impulse, const Vec3& change);
+
+    std::optional<Vec3> rest_;  // change of the last frame, if there was no push in it
     double count_ = 0.0;
     Vec3 impulse_{0.0}, change_{0.0};                              // means
     double of_impulses_ = 0.0, of_both_ = 0.0, of_changes_ = 0.0;  // sums of squares and products about them

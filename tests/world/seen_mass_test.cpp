@@ -26,6 +26,15 @@ TEST(SeenMass, IsThatWhichPushesMove) {
     }
 }
 
+// A body that bounces off a finger touches it for a few frames in all.
+TEST(SeenMass, IsSeenInTheFirstPush) {
+    SeenMass found;
+    found.note(Vec3(0.0), {-0.01, 0.0, 0.0}, told);  // what slows it besides
+    const Vec3 impulse(-0.02, 0.0, 0.0);
+    found.note(impulse, impulse / (2.5 * told) + Vec3(-0.01, 0.0, 0.0), told);
+    EXPECT_NEAR(found.factor(), 2.5, 0.1);
+}
+
 TEST(SeenMass, IsNeverLessThanTheEngineSays) {
     EXPECT_EQ(seen(0.6 * told, 0.0).factor(), 1.0);
 }
