@@ -41,8 +41,8 @@ struct SafeWalls {
     double device_damping = std::numeric_limits<double>::infinity();  // (unit: newton seconds per meter)
     // Of the pad between hand and surface; 0: there is none (unit: newtons per meter).
     double pad_stiffness = 0.0;
-    double radius =
-        0.0;  // of the sphere that touches; 0: a point, under which nothing more gives (unit: meters)
+    // Of the sphere that touches; 0: a point, under which nothing more gives (unit: meters).
+    double radius = 0.0;
 };
 
 // A surface under a pad. Of the way that both give, the surface's share is s = k_pad / (k_pad + K): together
