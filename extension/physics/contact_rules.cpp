@@ -68,8 +68,19 @@ JPH::Vec3 sliding_of(const Side& a, const Side& b, JPH::Vec3Arg normal) {
     return relative - relative.Dot(normal) * normal;
 }
 
-bool slides(JPH::Vec3Arg sliding) {
-    return sliding.LengthSq() >= slowest_sliding * slowest_sliding;
+// Of the first against the second, where they turn together: what takes both along the chords of their
+// circles. Zero where they do not.
+JPH::Vec3 velocity_on_chords(const JPH::Body& a, const JPH::Body& b, JPH::Vec3Arg normal, float seconds) {
+    constexpr float slowest = 0.01f;  // (unit: radians per second)
+    constexpr float alike = 0.1f;     // as a share of the rate
+    if (a.IsStatic() || b.IsStatic())
+        return JPH::Vec3::sZero();
+    const float rate = a.GetAngularVelocity().Dot(normal);
+    const float other_rate = b.GetAngularVelocity().Dot(normal);
+    if (std::abs(rate) < slowest || std::abs(other_rate - rate) > alike * std::abs(rate))
+        return JPH::Vec3::sZero();
+    const JPH::Vec3 way(b.GetCenterOfMassPosition() - a.GetCenterOfMassPosition());
+    return 0.5f * rate * rate * seconds * (way - way.Dot(normal) * normal);
 }
 
 }  // namespace
@@ -172,6 +183,10 @@ void ContactRules::oppose_sliding(const JPH::Body& a, const JPH::Body& b,
                                                             manifold.mRelativeContactPointsOn2[0]);
     Side on_a = side_of(a, point);
     Side on_b = side_of(b, point);
+    const JPH::Vec3 on_chords = velocity_on_chords(a, b, normal, seconds_);
+    const float slowest = slowest_sliding + 2.0f * on_chords.Length();
+    const auto slides = [slowest](JPH::Vec3Arg sliding) { return sliding.LengthSq() >= slowest * slowest; };
+    contact.mRelativeLinearSurfaceVelocity = on_chords;
     if (!slides(sliding_of(on_a, on_b, normal)))
         return;
     weigh(on_a, a, contact.mInvMassScale1, contact.mInvInertiaScale1, gravity_, seconds_);

@@ -1,6 +1,7 @@
 // Friction of faces that slide and turn at once (contact_points.hpp, contact_rules.hpp).
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -92,6 +93,26 @@ TEST(PatchFriction, ARodTurnsWhereItIsPulledAtItsEnd) {
 }
 
 // On a slope below the angle of friction nothing creeps.
+// In ten seconds it would leave its circle by 13 %.
+TEST(PatchFriction, HoldsABoxOnATurntable) {
+    PhysicsWorld world;
+    BodyDescription table = box({1.0, 0.1, 1.0}, {0.0, -0.05, 0.0}, 1.0, 0.6);
+    table.motion = Motion::Kinematic;
+    const BodyId turns = add(world, table);
+    const BodyId id = add(world, box(Vec3(0.04), {0.15, 0.02, 0.0}, 0.2, 0.6));
+    run(world, 200);
+    double turned = 0.0;
+    for (int i = 0; i < 10'000; ++i) {
+        const double rate = 5.0 * std::min(1.0, i / 1000.0);
+        turned += rate * tick;
+        world.set_velocity(turns, Vec3(0.0), {0.0, rate, 0.0});
+        world.step(tick);
+    }
+    const Vec3 right = about_y(turned) * Vec3(0.15, 0.02, 0.0);
+    EXPECT_NEAR(glm::distance(world.pose(id).position, right), 0.0, 1e-3);
+    EXPECT_NEAR(std::hypot(world.pose(id).position.x, world.pose(id).position.z), 0.15, 1e-4);
+}
+
 TEST(PatchFriction, HoldsOnASlope) {
     PhysicsSettings settings;
     settings.gravity = g * Vec3(std::sin(0.3), -std::cos(0.3), 0.0);
