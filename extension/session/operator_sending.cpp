@@ -94,7 +94,7 @@ void OperatorSide::send_sample(SessionLoop& loop, std::size_t index, Nanoseconds
     sample.position = to_local(frame, slot.hand);
     sample.velocity = direction_to_local(frame, slot.hand_velocity);
     // Traditional: only a passive scheme asks for it, and for what the hand was given.
-    const Vec3 given = settings().passivity != Passivity::none ? pointer.force : Vec3(0.0);
+    const Vec3 given = settings().passivity != Passivity::none ? pointer.passivity.told() : Vec3(0.0);
     sample.force = direction_to_local(frame, settings().traditional ? given : slot.force);
     SentHand& sent = pointer.sent;
     const bool same_force =

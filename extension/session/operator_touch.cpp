@@ -223,7 +223,7 @@ Vec3 OperatorSide::passive_force(std::size_t index, const SessionLoop::ProxySlot
     in.seconds = seconds_;
     in.far_taken = far.taken;
     if (!answers) {
-        passivity.rest(settings().passive, in);
+        passivity.rest(settings().passivity, settings().passive, in);
         return Vec3(0.0);
     }
     return passivity.force(settings().passivity, settings().passive, in);

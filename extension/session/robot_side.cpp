@@ -17,6 +17,10 @@ constexpr Wall wanted_coupling{1000.0, 5.0};
 // Less is noise of the observer, not contact (unit: newtons).
 constexpr double least_contact = 0.3;
 
+// A passive link lets a robot be pressed with so much beyond its friction, which nothing pays for: friction
+// is known no better (unit: newtons).
+constexpr double unseen = 2.0 * least_contact;
+
 // Of a robot that does not say what it weighs (unit: kilograms).
 constexpr double usual_mass = 0.2;
 
@@ -116,7 +120,7 @@ void RobotSide::play(SessionLoop& loop, std::size_t index, const SessionLoop::Pr
     const Wall coupling = coupling_of(robot);
     const Vec3 before = pointer.target;
     const double speed = follow_speed(glm::length(pointer.played.velocity), settings().stand_in.speed);
-    pointer.target = next_target(before, hand_of(pointer, slot, coupling), speed,
+    pointer.target = next_target(before, hand_of(pointer, slot, robot, coupling), speed,
                                  robot.workspace.pose.position, robot.capabilities.radius * scale, seconds_);
     pointer.passivity.went(pointer.target);
     pointer.velocity = (pointer.target - before) / seconds_;
@@ -124,7 +128,8 @@ void RobotSide::play(SessionLoop& loop, std::size_t index, const SessionLoop::Pr
 }
 
 // Where the operator's stand-in would have the robot.
-Vec3 RobotSide::hand_of(Pointer& pointer, const SessionLoop::ProxySlot& slot, const Wall& coupling) const {
+Vec3 RobotSide::hand_of(Pointer& pointer, const SessionLoop::ProxySlot& slot, const RobotView& robot,
+                        const Wall& coupling) const {
     const Pose& frame = settings().frame;
     const PointerSample& played = pointer.played;
     if (settings().passivity != Passivity::none) {
@@ -132,10 +137,15 @@ Vec3 RobotSide::hand_of(Pointer& pointer, const SessionLoop::ProxySlot& slot, co
         in.sample = played.sequence;
         in.hand = to_parent(frame, played.position);
         in.force = direction_to_parent(frame, played.force);
-        in.own_force = port_force(pointer);
+        in.own_force = pointer.coupled;
         in.is_free = glm::length(pointer.contact) <= least_contact;
         in.seconds = seconds_;
         in.is_exact = pointer.playing == Playing::exact || pointer.playing == Playing::guessed;
+        if (settings().passivity != Passivity::wave_variables) {
+            const Vec3 velocity = slot.hand_velocity / robot.workspace.scale;
+            const double spared = glm::length(friction_of(body_of(robot.capabilities), velocity)) + unseen;
+            in.coupled = {coupling.stiffness, spared / coupling.stiffness, slot.hand};
+        }
         return pointer.passivity.hand(settings().passivity, settings().passive, in);
     }
     StandInInput in;
@@ -198,13 +208,7 @@ void RobotSide::report(SessionLoop& loop, Nanoseconds now) {
     channel_.end_tick(statistics_);
 }
 
-// The link ends at the target: it gives the coupling energy, and the coupling the robot no more. In the time
-// domain nothing would pay for the robot's friction in free space: there, contact alone counts.
-Vec3 RobotSide::port_force(const Pointer& pointer) const {
-    return settings().passivity == Passivity::time_domain ? pointer.contact : pointer.coupled;
-}
-
-// A wave is made of the force at the port.
+// A wave is made of the force at the port, which is the target.
 Vec3 RobotSide::told_force(const Pointer& pointer) const {
     return settings().passivity == Passivity::wave_variables ? pointer.coupled : pointer.contact;
 }

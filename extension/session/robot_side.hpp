@@ -78,8 +78,8 @@ private:
     static RobotBody body_of(const DeviceCapabilities& robot);
     Wall coupling_of(const RobotView& robot) const;
     void play(SessionLoop& loop, std::size_t index, const SessionLoop::ProxySlot& slot);
-    Vec3 hand_of(Pointer& pointer, const SessionLoop::ProxySlot& slot, const Wall& coupling) const;
-    Vec3 port_force(const Pointer& pointer) const;
+    Vec3 hand_of(Pointer& pointer, const SessionLoop::ProxySlot& slot, const RobotView& robot,
+                 const Wall& coupling) const;
     Vec3 told_force(const Pointer& pointer) const;
     void send_forces(SessionLoop& loop, Nanoseconds now);
 

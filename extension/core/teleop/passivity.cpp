@@ -4,12 +4,17 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/math/shortened.hpp"
+
 namespace tactus {
 
 namespace {
 
 // Below this nothing moves or presses: nothing can be damped or yielded to (units: m^2/s^2, N^2).
 constexpr double nothing = 1e-12;
+
+// Forces and positions are rounded on their way: of the work that they tell of, so much has been done.
+constexpr double surely_taken = 1.0 - 1e-4;
 
 constexpr double two_pi = 6.28318530717958648;
 
@@ -20,26 +25,25 @@ const OperatorPassivity::Past* OperatorPassivity::past(std::uint64_t sample) con
     return sample != 0 && found.sample == sample ? &found : nullptr;
 }
 
-void OperatorPassivity::rest(const PassivitySettings& settings, const In& in) {
+void OperatorPassivity::rest(Passivity scheme, const PassivitySettings& settings, const In& in) {
     if (now_.begun) {
         now_ = {};
         for (Past& one : past_) {
             one.sample = 0;
         }
     }
-    // With F = 0, u = sqrt(b/2) x'.
-    const Vec3 velocity = unpaid_.known ? (in.hand - unpaid_.hand) / in.seconds : Vec3(0.0);
-    unpaid_.now += 0.25 * settings.impedance * glm::dot(velocity, velocity) * in.seconds;
-    unpaid_.hand = in.hand;
-    unpaid_.known = true;
-    if (++unpaid_.ticks == samples) {
-        unpaid_ = {0.0, unpaid_.now, 0, in.hand, true};
-    }
+    const bool has_waves = scheme == Passivity::wave_variables && resting_;
+    told_ = has_waves ? (in.hand - *resting_) * (settings.impedance / in.seconds) : Vec3(0.0);
+    resting_ = in.hand;
 }
 
 // The wave that is left is that of the force which the hand has felt, and so is the one that was played.
 void OperatorPassivity::given(const PassivitySettings& settings, const Vec3& force, double seconds) {
-    if (!now_.begun || force == now_.given) {
+    if (!now_.begun) {
+        return;
+    }
+    told_ = force;
+    if (force == now_.given) {
         return;
     }
     const double b = settings.impedance, root = std::sqrt(2.0 * b);
@@ -52,10 +56,9 @@ void OperatorPassivity::given(const PassivitySettings& settings, const Vec3& for
 
 Vec3 OperatorPassivity::force(Passivity scheme, const PassivitySettings& settings, const In& in) {
     if (!now_.begun) {
-        now_.hand = unpaid_.known ? unpaid_.hand : in.hand;
-        now_.wave_energy = -(unpaid_.now + unpaid_.before);
+        now_.hand = resting_.value_or(in.hand);
         now_.begun = true;
-        unpaid_ = {};
+        resting_.reset();
     }
     now_.way_velocity = (in.hand - now_.hand) / in.seconds;
     // The environment is passive: in a contact it gives back no more than this end has given.
@@ -186,25 +189,26 @@ Vec3 FarPassivity::hand(Passivity scheme, const PassivitySettings& settings, con
     } else {
         // Of one sample to the next, the force was held and the hand went its way.
         const bool is_known = in.is_exact && was_exact_ && in.sample == sample_ + 1;
-        const double taken =
-            is_known ? std::max(0.0, -glm::dot(operator_force_, in.hand - operator_hand_)) : 0.0;
+        const double work = -glm::dot(operator_force_, in.hand - operator_hand_);
+        const double taken = is_known ? surely_taken * std::max(0.0, work) : 0.0;
         operator_in_ += taken;
         tank_ += settings.shared * taken;
-        switch (scheme) {
-            case Passivity::wave_variables:
-                own_ += wave_way(settings, in, in.sample > sample_ ? in.sample - sample_ : 0);
-                break;
-            case Passivity::time_domain:
-                own_ += yielding_way(settings, in);
-                break;
-            default:
-                own_ += tank_way(settings, in);
-                break;
+        if (scheme == Passivity::wave_variables) {
+            own_ += wave_way(settings, in, in.sample > sample_ ? in.sample - sample_ : 0);
+        } else if (scheme == Passivity::time_domain) {
+            own_ += yielding_way(settings, in);
+        } else {
+            const Vec3 way = in.hand - own_;
+            own_ += way + too_far(in, way, std::max(0.0, tank_ + settings.far_store));
         }
+        // What a spring is asked to store is paid as if the robot's drive got there in this tick.
+        const double given = in.coupled.stiffness > 0.0 ? in.coupled.stored(own_) - in.coupled.stored(before)
+                                                        : -glm::dot(in.own_force, own_ - before);
+        out_ += std::max(0.0, given);
+        taken_ += std::max(0.0, -given);
+        // Of what is taken in here, the operator's end gets its share.
+        tank_ -= given > 0.0 ? given : (1.0 - settings.shared) * given;
     }
-    const double taken_here = std::max(0.0, glm::dot(in.own_force, own_ - before));
-    taken_ += taken_here;
-    tank_ -= scheme == Passivity::two_layers ? settings.shared * taken_here : 0.0;
     operator_hand_ = in.hand;
     operator_force_ = in.force;
     sample_ = in.sample;
@@ -216,10 +220,11 @@ Vec3 FarPassivity::hand(Passivity scheme, const PassivitySettings& settings, con
 // is played in one tick is scaled so that it has no more than has come.
 Vec3 FarPassivity::wave_way(const PassivitySettings& settings, const In& in, std::uint64_t ticks) {
     const double b = settings.impedance;
-    // sqrt(2/b) u = x' + F / b, and F = -f.
-    Vec3 wave = (in.hand - operator_hand_) - in.force * (in.seconds / b);  // sqrt(2/b) u dt
-    const double per_square = 0.25 * b / in.seconds;                       // |u|^2 dt / 2 of that
     const double passed = std::max<double>(1.0, static_cast<double>(ticks));
+    // sqrt(2/b) u = x' + F / b, and F = -f.
+    const Vec3 force = ticks > 1 ? 0.5 * (operator_force_ + in.force) : in.force;
+    Vec3 wave = (in.hand - operator_hand_) - force * (passed * in.seconds / b);  // sqrt(2/b) u dt
+    const double per_square = 0.25 * b / in.seconds;                             // |u|^2 dt / 2 of that
     wave_energy_ += ticks > 0 ? per_square * glm::dot(wave, wave) / passed : 0.0;
     const double energy = per_square * glm::dot(wave, wave);
     // Rounding may leave a little less than nothing.
@@ -242,34 +247,34 @@ Vec3 FarPassivity::wave_way(const PassivitySettings& settings, const In& in, std
     return way;
 }
 
-Vec3 FarPassivity::yielding_way(const PassivitySettings& settings, const In& in) {
-    const Vec3& h = in.own_force;
+Vec3 FarPassivity::yielding_way(const PassivitySettings& settings, const In& in) const {
     Vec3 way = in.hand - operator_hand_;
     way += (operator_hand_ - own_) * std::min(1.0, settings.drift_rate * in.seconds);
-    const double size2 = glm::dot(h, h);
-    const double given = -glm::dot(h, way);  // to the environment
-    const double left = operator_in_ + settings.far_store - out_;
-    if (given > left && size2 > nothing) {
-        const double yield = (given - left) / (size2 * in.seconds);
-        way += std::min(yield, settings.largest_yield) * in.seconds * h;
-    }
-    out_ += std::max(0.0, -glm::dot(h, way));
-    return way;
+    const Vec3 yield = too_far(in, way, operator_in_ + settings.far_store - out_);
+    const double most = settings.largest_yield * in.seconds * glm::length(in.own_force);
+    return way + (in.coupled.stiffness > 0.0 ? yield : shortened(yield, most));
 }
 
-Vec3 FarPassivity::tank_way(const PassivitySettings& settings, const In& in) {
-    const Vec3& h = in.own_force;
-    Vec3 way = in.hand - own_;
-    const double size2 = glm::dot(h, h);
-    double given = -glm::dot(h, way);
-    const double allowed = std::max(0.0, tank_ + settings.far_store);
-    if (given > allowed && size2 > nothing) {
-        way += h * ((given - allowed) / size2);
-        given = allowed;
+// What a way must be changed by so that no more than `left` is given (unit: joules).
+Vec3 FarPassivity::too_far(const In& in, const Vec3& way, double left) const {
+    const Coupled& coupled = in.coupled;
+    if (coupled.stiffness > 0.0) {
+        const double energy = coupled.stored(own_) + std::max(0.0, left);
+        const Vec3 extension = own_ + way - coupled.tip;
+        const double most = coupled.spared + std::sqrt(2.0 * energy / coupled.stiffness);
+        return shortened(extension, most) - extension;
     }
-    // What is taken in here is in the tank, less what the operator's end is told of it.
-    tank_ -= given;
-    return way;
+    const double size = glm::length(in.own_force);
+    if (size * size < nothing) {
+        return Vec3(0.0);
+    }
+    const Vec3 against = in.own_force / size;
+    return against * std::max(0.0, -glm::dot(way, against) - left / size);
+}
+
+double FarPassivity::Coupled::stored(const Vec3& target) const {
+    const double extension = std::max(0.0, glm::distance(target, tip) - spared);
+    return 0.5 * stiffness * extension * extension;
 }
 
 }  // namespace tactus

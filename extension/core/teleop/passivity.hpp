@@ -23,6 +23,8 @@
 //                   force and the operator's place; the lower has a tank at each end, and nothing is done
 //                   that the tank cannot pay. What is taken in is shared between both tanks; below its
 //                   wanted level the operator's is filled by -d x'.
+//   A robot follows the far hand by a spring: in the time domain and with two layers the far hand goes only
+//   so far that the spring has no more energy than is left, and what it has is what the far end has given.
 //   none            the force as it comes, or through a network compensation spring (Kroep and others 2023):
 //                   the older a force is, the softer is the spring that displays it. With its age T,
 //                       f = h / (1 + T / tau)
@@ -35,6 +37,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "core/math/types.hpp"
 
@@ -86,7 +89,10 @@ public:
     // After limits behind it have changed what the hand is given.
     void given(const PassivitySettings& settings, const Vec3& force, double seconds);
     // A tick in which the far side does not answer: the hand is free, and all that was known is forgotten.
-    void rest(const PassivitySettings& settings, const In& in);
+    void rest(Passivity scheme, const PassivitySettings& settings, const In& in);
+    // The force that the far end is to be told of (unit: newtons): the one on the hand. At rest no waves go
+    // there, since nothing opposes the hand: then it is b x', whose wave is 0.
+    const Vec3& told() const { return told_; }
 
 private:
     struct Past {
@@ -122,22 +128,24 @@ private:
         double net = 0.0;          // given to the hand in this contact, less what it has given (unit: joules)
     };
 
-    // Waves that a hand has sent which nothing has opposed: what comes back of them is not paid for. Those of
-    // the last `samples` to 2 `samples` ticks (unit: joules).
-    struct Unpaid {
-        double now = 0.0, before = 0.0;
-        std::size_t ticks = 0;
-        Vec3 hand{0.0};
-        bool known = false;
-    };
-
     State now_;
-    Unpaid unpaid_;
+    Vec3 told_{0.0};
+    std::optional<Vec3> resting_;  // hand, one tick ago
     std::array<Past, samples> past_{};
 };
 
 class FarPassivity {
 public:
+    // Time domain, two layers: the far hand is the target of a spring that leads a robot's tip. Its energy is
+    // that of the part of its extension e beyond what friction takes, k e^2 / 2.
+    struct Coupled {
+        double stiffness = 0.0;  // k (unit: newtons per meter); 0: the far hand is led itself
+        double spared = 0.0;     // extension that friction takes (unit: meters), >= 0
+        Vec3 tip{0.0};           // (unit: meters)
+
+        double stored(const Vec3& target) const;  // (unit: joules)
+    };
+
     struct In {
         std::uint64_t sample = 0;  // the operator's that is played in this tick
         Vec3 hand{0.0};            // the operator's (unit: meters)
@@ -148,6 +156,7 @@ public:
         bool is_exact = true;
         // Wave variables: it touches nothing, though its own force may not be 0.
         bool is_free = false;
+        Coupled coupled{};
     };
 
     // Where the far hand goes in this tick (unit: meters).
@@ -165,8 +174,8 @@ public:
 
 private:
     Vec3 wave_way(const PassivitySettings& settings, const In& in, std::uint64_t ticks);
-    Vec3 yielding_way(const PassivitySettings& settings, const In& in);
-    Vec3 tank_way(const PassivitySettings& settings, const In& in);
+    Vec3 yielding_way(const PassivitySettings& settings, const In& in) const;
+    Vec3 too_far(const In& in, const Vec3& way, double left) const;
 
     bool begun_ = false;
     std::uint64_t sample_ = 0;

@@ -28,7 +28,8 @@ struct Pressing {
 // What may be lost on its way, and how late it comes.
 struct Way {
     double loss = 0.0;
-    std::size_t burst = 1;  // so many in a row
+    std::size_t burst = 1;    // so many in a row
+    std::size_t unheard = 0;  // no answer comes before this tick
 };
 
 // An arm of 0.5 kg goes down to 30 mm below the surface of a wall, holds, and comes up again; `there` ticks
@@ -69,7 +70,7 @@ Pressing press(Passivity scheme, std::size_t there, double wall, const Way& way 
         in.sample = t;
         in.hand = {0.0, y, 0.0};
         in.velocity = {0.0, speed, 0.0};
-        if (t > 2 * there + 1 && !is_lost(lost_back)) {
+        if (t > std::max(2 * there + 1, way.unheard) && !is_lost(lost_back)) {
             heard = std::max(heard, answered_by[t - there - 1]);
         }
         if (heard > 0) {
@@ -82,10 +83,10 @@ Pressing press(Passivity scheme, std::size_t there, double wall, const Way& way 
             force.y = std::clamp(force.y, -10.0, 10.0);
             near->given(settings, force, tick);
         } else {
-            near->rest(settings, in);  // the hand is under way before anybody has answered
+            near->rest(scheme, settings, in);  // the hand is under way before anybody has answered
         }
         hands.push_back(in.hand);
-        forces.push_back(force);
+        forces.push_back(near->told());
         if (t > there && !is_lost(lost_there)) {
             played = t - there;
         }
@@ -175,6 +176,18 @@ TEST(Passivity, BothPortsTogetherMakeNoMoreThanTheirStores) {
     }
 }
 
+// A hand that nothing opposes gives the link no energy, however fast it moves: the far hand may press with
+// none.
+TEST(Passivity, AHandThatHearsNoAnswerYetSendsNoWaves) {
+    for (const std::size_t there : {0u, 25u, 100u, 250u}) {
+        for (const std::size_t unheard : {400u, 550u, 750u, 2500u}) {
+            const Way late{0.0, 1, unheard};
+            EXPECT_LE(press(Passivity::wave_variables, there, 500.0, late).both, 1e-4)
+                << there << " " << unheard;
+        }
+    }
+}
+
 TEST(Passivity, AWallIsFeltWithoutADelay) {
     EXPECT_NEAR(press(Passivity::two_layers, 0, 500.0).felt, press(Passivity::none, 0, 500.0).felt, 0.05);
     EXPECT_NEAR(press(Passivity::time_domain, 0, 500.0).felt, press(Passivity::none, 0, 500.0).felt, 0.05);
@@ -216,10 +229,10 @@ Stopped stop_in_free_space(std::size_t there, const PassivitySettings& settings)
             force = near->force(Passivity::wave_variables, settings, in);
             near->given(settings, force, tick);
         } else {
-            near->rest(settings, in);
+            near->rest(Passivity::wave_variables, settings, in);
         }
         hands.push_back(in.hand);
-        forces.push_back(force);
+        forces.push_back(near->told());
         if (t <= there) {
             continue;
         }
