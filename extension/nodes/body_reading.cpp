@@ -64,6 +64,18 @@ void take_problem_of_mass(const RigidBody3D& body, const HapticMaterial* materia
     }
 }
 
+// A shape that a script has switched off is missing on purpose.
+bool has_shape_switched_off(CollisionObject3D& body) {
+    const PackedInt32Array owners = body.get_shape_owners();
+    for (int64_t i = 0; i < owners.size(); ++i) {
+        const auto owner = static_cast<std::uint32_t>(owners[i]);
+        if (body.is_shape_owner_disabled(owner) && body.shape_owner_get_shape_count(owner) > 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
 }  // namespace
 
 double told(const RID& body, PhysicsServer3D::BodyParameter what) {
@@ -159,7 +171,7 @@ BodyForm read_form(CollisionObject3D& body, const Mat3& body_scale, bool engine_
     }
     form.touchable =
         !form.shapes.empty() || !form.meshes.empty() || !form.touched.empty() || form.soft != nullptr;
-    if (!form.touchable && form.problems.size() == besides) {
+    if (!form.touchable && form.problems.size() == besides && !has_shape_switched_off(body)) {
         form.problems.push_back("it has no shape: give it a CollisionShape3D or a HapticMesh as a child");
     }
     return form;
