@@ -16,6 +16,9 @@ constexpr double nothing = 1e-12;
 // Forces and positions are rounded on their way: of the work that they tell of, so much has been done.
 constexpr double surely_taken = 1.0 - 1e-4;
 
+// Between two samples a force is held so long at most (unit: samples).
+constexpr double longest_held = 4.0;
+
 constexpr double two_pi = 6.28318530717958648;
 
 }  // namespace
@@ -222,9 +225,11 @@ Vec3 FarPassivity::wave_way(const PassivitySettings& settings, const In& in, std
     const double b = settings.impedance;
     const double passed = std::max<double>(1.0, static_cast<double>(ticks));
     // sqrt(2/b) u = x' + F / b, and F = -f.
+    // Of many that were lost it is not known how long the force was held.
+    const double held = std::min(passed, longest_held) * in.seconds;
     const Vec3 force = ticks > 1 ? 0.5 * (operator_force_ + in.force) : in.force;
-    Vec3 wave = (in.hand - operator_hand_) - force * (passed * in.seconds / b);  // sqrt(2/b) u dt
-    const double per_square = 0.25 * b / in.seconds;                             // |u|^2 dt / 2 of that
+    Vec3 wave = (in.hand - operator_hand_) - force * (held / b);  // sqrt(2/b) u dt
+    const double per_square = 0.25 * b / in.seconds;              // |u|^2 dt / 2 of that
     wave_energy_ += ticks > 0 ? per_square * glm::dot(wave, wave) / passed : 0.0;
     const double energy = per_square * glm::dot(wave, wave);
     // Rounding may leave a little less than nothing.

@@ -284,6 +284,20 @@ TEST(Passivity, AFarHandThatHasYieldedComesBack) {
     EXPECT_NEAR(hand.y, -1e-3, 1e-6);
 }
 
+// The hand stands and presses, and half a second of samples is lost.
+TEST(Passivity, AFarHandDoesNotLeapAfterAGap) {
+    FarPassivity far;
+    FarPassivity::In in;
+    in.force.y = in.own_force.y = 5.0;
+    double before = 0.0;
+    for (int i = 0; i < 400; ++i) {
+        in.sample += i == 200 ? 500 : 1;
+        const double at = far.hand(Passivity::wave_variables, {}, in).y;
+        EXPECT_LE(std::abs(at - before), 1e-3) << i;
+        before = at;
+    }
+}
+
 // Samples come late and in lumps, so that more is played than has come and waves are scaled. Then the hand
 // stands and feels nothing: what rounding has left of the waves is no wave.
 TEST(Passivity, AFarHandIsSomewhereWhateverComesLate) {
