@@ -53,7 +53,8 @@ void Proxy::restart() {
 }
 
 void Proxy::go_along(const Vec3& offset, int body) {
-    if (!hold_.friction.is_sliding()) {
+    const Touch* const rests_on = carrier();
+    if (!hold_.friction.is_sliding() && rests_on && rests_on->body == body) {
         displace(offset);
         return;
     }

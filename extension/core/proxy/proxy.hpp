@@ -56,8 +56,8 @@ public:
 
     // Moves the proxy by hand, without a sweep: for a correction that carries it along with an object.
     void displace(const Vec3& offset) { sphere_.put(sphere_.position + offset); }
-    // The same where `body`, which it rests on, is put elsewhere: a proxy that sticks to it goes along; of
-    // one that slides the hand leads what lies along the surface, so that it is only pushed.
+    // The same where `body`, which it touches, is put elsewhere: a proxy that sticks to it goes along. One
+    // that slides, or rests harder on another, is only pushed.
     void go_along(const Vec3& offset, int body);
     // The proxy as it was, to move it again from there.
     ProxyMemory memory() const;

@@ -101,17 +101,11 @@ private:
 
 }  // namespace
 
-// The contact with the moving body that the proxy rests on most; null: there is none.
+// The contact that the proxy rests on hardest; null: there is none. Friction there holds it against all
+// others.
 const Touch* Proxy::carrier() const {
-    const Touch* hardest = nullptr;
-    double max_pressure = 0.0;
-    for (const Touch& contact : touching()) {
-        if (contact.pressure > max_pressure && scene().body(contact.body).moved) {
-            hardest = &contact;
-            max_pressure = contact.pressure;
-        }
-    }
-    return hardest;
+    const auto hardest = std::ranges::max_element(touching(), {}, &Touch::pressure);
+    return hardest != touching().end() && hardest->pressure > 0.0 ? &*hardest : nullptr;
 }
 
 // With the body, and then back on it: a finger does not turn, so its center moves as the body's material at
@@ -176,13 +170,13 @@ void Proxy::ride_deformations(ProxyTick& tick) {
     }
 }
 
-// A proxy that rests on a moving body moves with it; one that a moving body runs into is pushed. Neither way
-// leads through anything but the body that causes it, which stands at its new place already.
+// A proxy that rests hardest on a moving body moves with it; one that a moving body runs into is pushed.
+// Neither way leads through anything but the body that causes it, which stands at its new place already.
 void Proxy::ride_bodies(ProxyTick& tick) {
     bool free = true;
     FeatureId stopped_by;
     int carried_by = -1;
-    if (const Touch* const contact = carrier()) {
+    if (const Touch* const contact = carrier(); contact && scene().body(contact->body).moved) {
         carried_by = contact->body;
         free = ride_carrier(*contact);
     }

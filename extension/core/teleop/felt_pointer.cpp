@@ -75,7 +75,11 @@ Vec3 FeltPointer::feel(const StealthSettings& settings, const FeltInput& in) {
         if (glm::length(hidden_) < nothing_hidden) {
             hidden_ = Vec3(0.0);
         }
-        hidden_ = tank_.allow(hidden_, in.hand_velocity, in.seconds, tank_reserve, energy_.damped_J);
+        const Vec3 asked = hidden_;
+        hidden_ = tank_.allow(asked, in.hand_velocity, in.seconds, tank_reserve, energy_.damped_J);
+        if (state_ == FeltState::letting_go && left_ <= 0.0 && hidden_ != asked) {
+            state_ = FeltState::bridged;  // what the tank takes back is not kept
+        }
         faded_ = std::abs(before - glm::length(hidden_));
     }
     if (hidden_ == Vec3(0.0) && state_ != FeltState::letting_go) {
@@ -91,8 +95,10 @@ Vec3 FeltPointer::feel(const StealthSettings& settings, const FeltInput& in) {
 
 // What was falling already goes on falling at least as fast.
 void FeltPointer::begin_to_let_go(const StealthSettings& settings, const FeltInput& in) {
-    const bool too_much = glm::length(hidden_) > max_hidden(settings, glm::length(in.modelled));
-    begins_to_let_go_ = (std::exchange(lets_go_, false) || too_much) && state_ != FeltState::letting_go;
+    const bool lets_go = state_ == FeltState::letting_go;
+    const bool too_much =
+        glm::length(lets_go ? kept_ : hidden_) > max_hidden(settings, glm::length(in.modelled));
+    begins_to_let_go_ = (std::exchange(lets_go_, false) && !lets_go) || too_much;
     if (!begins_to_let_go_) {
         return;
     }

@@ -52,6 +52,27 @@ TEST(ProxyMoving, ATurningBodyCarriesItAround) {
     }
 }
 
+// A finger in a corner of a floor and a wall, each of them sticky, goes with what it presses harder.
+TEST(ProxyMoving, OfTwoBodiesItSticksToTheOneThatItPressesHarder) {
+    for (const bool leans_on_wall : {false, true}) {
+        TouchRig rig(radius);
+        rig.add(BoxShape{Vec3(1.0, 0.1, 1.0)}, {}, sticky);
+        const int wall = rig.add(BoxShape{Vec3(0.1, 0.5, 1.0)}, at({0.3, 0.6, 0.0}), sticky);
+        const Vec3 hand =
+            Vec3(0.15, 0.15, 0.0) + (leans_on_wall ? Vec3(0.03, -0.005, 0.0) : Vec3(0.005, -0.03, 0.0));
+        rig.draw({0.1, 0.4, 0.0}, hand, 20);
+        rig.tick(hand);
+        double along = 0.0;
+        for (int i = 1; i <= 20; ++i) {
+            along = rig.tick(hand, wall, at({0.3, 0.6, 0.0001 * i})).position.z;
+        }
+        EXPECT_NEAR(along, leans_on_wall ? 0.002 : 0.0, 1e-6);
+        rig.proxy.set_sliding(false);
+        rig.proxy.go_along({0.0, 0.0, 0.002}, wall);
+        EXPECT_NEAR(rig.proxy.position().z - along, leans_on_wall ? 0.002 : 0.0, 1e-9);
+    }
+}
+
 // A finger does not turn. On a drum of radius R that turns by a it goes as far as the drum's material does,
 // R a, and so by the angle R a / (R + r) about the axis; as part of the drum it would go by a.
 TEST(ProxyMoving, OnATurningDrumItRollsBack) {

@@ -87,6 +87,29 @@ TEST(FeltPointer, WhatIsTooLargeIsLetGoAndSaysSo) {
     EXPECT_GE(ticks, 0.6 * settings.let_go_seconds / tick);
 }
 
+// The hand goes along with what is hidden, so that its tank takes some of it back at each tick.
+double hidden_after(double seconds, double change) {
+    const StealthSettings settings;
+    const Vec3 modelled(10.0, 0.0, 0.0);
+    FeltPointer pointer = rubbed(settings, modelled);
+    pointer.let_go();
+    pointer.feel(settings, pressing(modelled));
+    pointer.hide(modelled - Vec3(change, 0.0, 0.0), modelled);
+    for (int i = 0; i * tick < seconds; ++i) {
+        pointer.feel(settings, pressing(modelled, {-0.15, 0.0, 0.0}));
+    }
+    return glm::length(pointer.hidden());
+}
+
+TEST(FeltPointer, WhatTheTankTakesBackWhileLettingGoFades) {
+    EXPECT_GT(hidden_after(0.1, 8.0), 4.0);
+    EXPECT_EQ(hidden_after(5.0, 8.0), 0.0);
+}
+
+TEST(FeltPointer, WhatGetsTooLargeWhileLettingGoIsLetGoAsWell) {
+    EXPECT_LT(hidden_after(0.15, 12.0), 0.1);
+}
+
 // A hand that leaves a surface leaves what is hidden there with it.
 TEST(FeltPointer, NothingIsFeltWhereNothingIsTouchedAnyMore) {
     const StealthSettings settings;
