@@ -95,10 +95,10 @@ Vec3 FeltPointer::feel(const StealthSettings& settings, const FeltInput& in) {
 
 // What was falling already goes on falling at least as fast.
 void FeltPointer::begin_to_let_go(const StealthSettings& settings, const FeltInput& in) {
-    const bool lets_go = state_ == FeltState::letting_go;
-    const bool too_much =
-        glm::length(lets_go ? kept_ : hidden_) > max_hidden(settings, glm::length(in.modelled));
-    begins_to_let_go_ = (std::exchange(lets_go_, false) && !lets_go) || too_much;
+    const bool is_letting_go = state_ == FeltState::letting_go;
+    const Vec3& stays = is_letting_go ? kept_ : hidden_;
+    const bool too_much = glm::length(stays) > max_hidden(settings, glm::length(in.modelled));
+    begins_to_let_go_ = (std::exchange(lets_go_, false) && !is_letting_go) || too_much;
     if (!begins_to_let_go_) {
         return;
     }

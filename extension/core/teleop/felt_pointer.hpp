@@ -10,7 +10,8 @@
 //     bridged     -> letting_go   more is hidden than is felt, or nothing is touched any more
 //     any         -> letting_go   let_go(): what the change leads to is too large to hide
 //     letting_go  -> together     it is gone
-//     letting_go  -> bridged      but for what has changed meanwhile
+//     letting_go  -> bridged      but for what has changed meanwhile, less what the tank takes back of it
+//     letting_go  -> letting_go   that is more than is felt: it is let go as well
 //     together    -> carried      a second pointer is carried along with the object
 //     (session/carried_pointer.hpp)
 // What is let go goes over into what is modelled within `let_go_seconds`, however much there is, and later

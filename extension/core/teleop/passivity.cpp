@@ -224,10 +224,10 @@ Vec3 FarPassivity::hand(Passivity scheme, const PassivitySettings& settings, con
 Vec3 FarPassivity::wave_way(const PassivitySettings& settings, const In& in, std::uint64_t ticks) {
     const double b = settings.impedance;
     const double passed = std::max<double>(1.0, static_cast<double>(ticks));
-    // sqrt(2/b) u = x' + F / b, and F = -f.
     // Of many that were lost it is not known how long the force was held.
     const double held = std::min(passed, longest_held) * in.seconds;
     const Vec3 force = ticks > 1 ? 0.5 * (operator_force_ + in.force) : in.force;
+    // sqrt(2/b) u = x' + F / b, and F = -f.
     Vec3 wave = (in.hand - operator_hand_) - force * (held / b);  // sqrt(2/b) u dt
     const double per_square = 0.25 * b / in.seconds;              // |u|^2 dt / 2 of that
     wave_energy_ += ticks > 0 ? per_square * glm::dot(wave, wave) / passed : 0.0;
