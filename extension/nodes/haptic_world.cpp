@@ -21,7 +21,6 @@
 #include "nodes/tree_walk.hpp"
 #include "nodes/whole_path.hpp"
 #include "nodes/world_run.hpp"
-#include "realtime/workers.hpp"
 #include "world/status_words.hpp"
 
 namespace tactus {
@@ -92,13 +91,6 @@ void warn_of(Node& node, bool engine_moves, PackedStringArray& warnings) {
             warn(warnings, name + String(" is not carried out as Godot has it"), to_godot(problem));
         }
     }
-}
-
-// Of millions of triangles, that takes longer than a frame has. A run takes tens of megabytes, and scenes may
-// open and close worlds in every frame.
-void discard_run(std::shared_ptr<WorldRun> run) {
-    static BoundedDiscard discard(3);
-    discard([last = std::move(run)]() mutable { last.reset(); });
 }
 
 }  // namespace
@@ -293,17 +285,11 @@ void HapticWorld::stop() {
     }
     Roll<HapticWorld>::leave(this);
     run_->end();
-    let_go_of_former();
-    discard_run(std::move(run_));
+    former_.reset();
+    run_.reset();
     loop_error_ = String();
     post_signal(*this, "stopped");
     told_.tell(*this);
-}
-
-void HapticWorld::let_go_of_former() {
-    if (former_ != nullptr) {
-        discard_run(std::move(former_));
-    }
 }
 
 // What crosses a link is relative to the worlds of both sides: one that has been moved begins anew where it
@@ -418,7 +404,7 @@ void HapticWorld::process(double seconds) {
     }
     run->synchronise(std::max(seconds, shortest_way));
     if (run->trees_building() == 0) {
-        let_go_of_former();
+        former_.reset();
     }
     if (run->loop().is_running() && is_urgent() != run->loop().settings().realtime.keep_awake) {
         loop_changed();
@@ -453,7 +439,7 @@ int64_t HapticWorld::advance(double seconds) {
     catch_up();
     const std::shared_ptr<WorldRun> run = run_;
     run->synchronise(std::max(seconds, 1.0 / tick_rate_));
-    let_go_of_former();
+    former_.reset();
     const int64_t ticks = run->running().advance(seconds);
     report_status(seconds);
     told_.tell(*this);

@@ -136,7 +136,6 @@ private:
     bool chooses_godot();
     void look_at_arrivals();
     void catch_up();
-    void let_go_of_former();
     std::unique_ptr<InputRecording> record_inputs(const SessionSettings& settings);
     void start_loop();
     TickLoopSettings loop_settings() const;

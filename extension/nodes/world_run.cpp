@@ -17,6 +17,7 @@
 #include "nodes/roll.hpp"
 #include "nodes/scene_warnings.hpp"
 #include "nodes/tree_walk.hpp"
+#include "realtime/workers.hpp"
 #include "world/scene_telling.hpp"
 
 namespace tactus {
@@ -54,16 +55,23 @@ std::vector<LinkPlan> plans_of(const std::vector<MMTLink*>& links) {
 
 }  // namespace
 
+// Of millions of triangles, that takes longer than a frame has. A run takes tens of megabytes, and scenes may
+// open and close worlds in every frame.
+void WorldRun::DestroyedAside::operator()(RunningWorld* running) const {
+    static BoundedDiscard discard(3);
+    discard([running] { delete running; });
+}
+
 WorldRun::WorldRun(HapticWorld& world, RunSettings settings)
     : world_(world),
-      running_(settings.session, settings.real_time, pose_of(world.get_global_transform()),
-               plans_of(settings.links), std::move(settings.inputs)),
+      running_(new RunningWorld(settings.session, settings.real_time, pose_of(world.get_global_transform()),
+                                plans_of(settings.links), std::move(settings.inputs))),
       engine_moves_(settings.engine_moves),
       bodies_(world, settings.session.max_bodies, settings.real_time, settings.engine_moves, complaints_) {
     for (const MMTLink* link : settings.links) {
         link_nodes_.push_back(link->get_instance_id());
     }
-    if (running_.is_operator()) {
+    if (running_->is_operator()) {
         start_model(*settings.links.front());
     }
     // At the far side the hand is the operator's: what is plugged in here has no part in it, but for robots.
@@ -80,7 +88,7 @@ void WorldRun::end() {
     if (is_over()) {
         return;
     }
-    running_.end();
+    running_->end();
     view().release(session());
     for (const std::uint64_t id : link_nodes_) {
         if (auto* link = node_of_id<MMTLink>(id)) {
@@ -91,7 +99,7 @@ void WorldRun::end() {
 }
 
 void WorldRun::pause() {
-    running_.pause();
+    running_->pause();
     hands_->show_devices(session().snapshot());
     hands_->clear_forces();
 }
@@ -100,7 +108,7 @@ void WorldRun::pause() {
 
 void WorldRun::synchronise(double seconds) {
     const Busy busy(is_busy_);
-    running_.collect();  // trees that the loop has let go of can be refitted
+    running_->collect();  // trees that the loop has let go of can be refitted
     synchronise_links();
     if (model_ == nullptr) {
         synchronise_bodies(seconds);
@@ -113,12 +121,12 @@ void WorldRun::synchronise(double seconds) {
     synchronise_recorders();
     for (HapticVibrationSound* feedback : Roll<HapticVibrationSound>::all()) {
         if (!feedback->is_wanted()) {
-            running_.listeners().end(session(), feedback->get_instance_id());
+            running_->listeners().end(session(), feedback->get_instance_id());
         } else if (HapticWorld::of(feedback) == &world_) {
             give_ticks(*feedback, feedback->ring(), no_handle);
         }
     }
-    if (running_.collect()) {
+    if (running_->collect()) {
         hands_->forget_retired();
     }
 }
@@ -161,7 +169,7 @@ void WorldRun::look_at_scene() {
 }
 
 void WorldRun::synchronise_bodies(double seconds) {
-    running_.push_for(seconds);
+    running_->push_for(seconds);
     complaints_.say(world_, problem_of_time());
     const BodyDefaults defaults = world_.body_defaults();
     if (!same_values(defaults.touch, defaults_.touch) || !same_detail(defaults.detail, defaults_.detail)) {
@@ -187,21 +195,22 @@ void WorldRun::synchronise_bodies(double seconds) {
 
 void WorldRun::start_model(const MMTLink& link) {
     model_ = std::make_unique<ModelView>(world_);
-    running_.links().front()->set_distortion([this, errors = link.model_errors()](ObjectDescription& object) {
-        if (const auto error = errors.find(object.name); error != errors.end()) {
-            distort(error->second, object);
-        }
-        model_->note(object);
-    });
+    running_->links().front()->set_distortion(
+        [this, errors = link.model_errors()](ObjectDescription& object) {
+            if (const auto error = errors.find(object.name); error != errors.end()) {
+                distort(error->second, object);
+            }
+            model_->note(object);
+        });
 }
 
 void WorldRun::synchronise_links() {
-    const auto& links = running_.links();
+    const auto& links = running_->links();
     for (std::size_t i = 0; i < links.size(); ++i) {
         auto* const node = node_of_id<MMTLink>(link_nodes_[i]);
         const bool has_new_objects =
-            running_.synchronise(*links[i], node != nullptr ? std::optional(node->plan()) : std::nullopt,
-                                 from_godot(world_.get_gravity()));
+            running_->synchronise(*links[i], node != nullptr ? std::optional(node->plan()) : std::nullopt,
+                                  from_godot(world_.get_gravity()));
         if (has_new_objects || (model_ != nullptr && model_->takes_scene_change())) {
             std::ranges::move(model_->update(links[i]->objects()), std::back_inserter(model_news_));
             model_changed_ = loop().now();
@@ -245,11 +254,11 @@ void WorldRun::synchronise_recorders() {
         if (!recorder->is_recording() || HapticWorld::of(recorder) != &world_) {
             continue;
         }
-        if (running_.recording() == nullptr) {
+        if (running_->recording() == nullptr) {
             recorder_ = recorder->get_instance_id();
-            complaints_.say(world_, running_.record(recorder->recording()));
+            complaints_.say(world_, running_->record(recorder->recording()));
         }
-        if (running_.recording() == recorder->recording()) {
+        if (running_->recording() == recorder->recording()) {
             give_ticks(*recorder, recorder->recording()->ring(), body_of(recorder->object_node()));
         } else {
             complaints_.say(*recorder, "another HapticRecorder, " + name_of(*node_of_id<Node>(recorder_)) +
@@ -264,7 +273,7 @@ void WorldRun::give_ticks(const NodeType& node, const std::shared_ptr<TickRing>&
     complaints_.say(node, node.problem());
     const SessionHandle proxy = hands_->handle_of(node.hand_node());
     if (proxy != no_handle &&
-        !running_.listeners().listen(session(), node.get_instance_id(), ring, proxy, body)) {
+        !running_->listeners().listen(session(), node.get_instance_id(), ring, proxy, body)) {
         complaints_.say(node, too_many_recordings);
     }
 }
@@ -275,15 +284,15 @@ void WorldRun::node_removed(Node& node) {
     const std::uint64_t id = node.get_instance_id();
     hands_->end_contacts(id);
     hands_->forget(id, session());
-    running_.listeners().end(session(), id);
+    running_->listeners().end(session(), id);
     std::ranges::replace(link_nodes_, id, std::uint64_t{0});
     view().scene_changed(node, false);
 }
 
 void WorldRun::finish(HapticRecorder& recorder) {
-    if (recorder.recording() == running_.recording()) {
-        running_.finish_recording();
-        running_.listeners().end(session(), recorder_);
+    if (recorder.recording() == running_->recording()) {
+        running_->finish_recording();
+        running_->listeners().end(session(), recorder_);
     }
 }
 
@@ -291,9 +300,9 @@ void WorldRun::finish(HapticRecorder& recorder) {
 
 void WorldRun::show() {
     const Busy busy(is_busy_);
-    running_.drain();
+    running_->drain();
     std::vector<LinkReport> reports;
-    for (const auto& link : running_.links()) {
+    for (const auto& link : running_->links()) {
         reports.push_back(link->report());
     }
     const std::vector<ModelNews> news = std::exchange(model_news_, {});
@@ -452,7 +461,7 @@ std::vector<std::string> problems_of_errors(const MMTLink& link, const std::vect
 
 std::vector<std::string> WorldRun::problems() const {
     std::vector<std::string> all;
-    for (const auto& link : running_.links()) {
+    for (const auto& link : running_->links()) {
         std::ranges::move(link->problems(), std::back_inserter(all));
     }
     if (model_ == nullptr) {
@@ -471,7 +480,7 @@ std::vector<std::string> WorldRun::problems() const {
     }
     const auto* const link = model_ != nullptr ? node_of_id<MMTLink>(link_nodes_.front()) : nullptr;
     if (link != nullptr) {
-        std::ranges::move(problems_of_errors(*link, running_.links().front()->objects()),
+        std::ranges::move(problems_of_errors(*link, running_->links().front()->objects()),
                           std::back_inserter(all));
     }
     return all;

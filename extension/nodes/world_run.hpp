@@ -38,10 +38,10 @@ public:
     WorldRun(const WorldRun&) = delete;
     WorldRun& operator=(const WorldRun&) = delete;
 
-    // Gives everything back; nothing ticks after it. The run itself may be destroyed later: whoever is at
-    // work in it finds out by is_over().
+    // Gives everything back; nothing ticks after it. Whoever is at work in the run keeps it, and finds out by
+    // is_over().
     void end();
-    bool is_over() const { return running_.is_over(); }
+    bool is_over() const { return running_->is_over(); }
     // While scene and session are brought together. Godot may call scripts then, as bodies move.
     bool is_busy() const { return is_busy_; }
 
@@ -76,20 +76,26 @@ public:
     // Whether Godot's own physics may take over now, which `need` asks for; it is said why not.
     bool may_start_anew(const std::string& need);
     bool is_linked() const { return !link_nodes_.empty(); }
-    BodyState state_of(const godot::Node* node) { return running_.state_of(body_of(node)); }
+    BodyState state_of(const godot::Node* node) { return running_->state_of(body_of(node)); }
 
     const SceneBodies& bodies() const { return bodies_; }
-    RunningWorld& running() { return running_; }
-    Session& session() { return running_.session(); }
-    WorldLoop& loop() { return running_.loop(); }
-    const WorldLoop& loop() const { return running_.loop(); }
+    RunningWorld& running() { return *running_; }
+    Session& session() { return running_->session(); }
+    WorldLoop& loop() { return running_->loop(); }
+    const WorldLoop& loop() const { return running_->loop(); }
     std::size_t body_count() { return view().body_count(); }
     std::size_t trees_building() const { return bodies_.mirrors().building(); }  // bodies wait
     std::vector<std::string> problems() const;                                   // each names its node
     // The loop has to be on time: a hand of this world is given forces.
-    bool displays_forces() const { return hands_->displays_forces() || !running_.links().empty(); }
+    bool displays_forces() const { return hands_->displays_forces() || !running_->links().empty(); }
 
 private:
+    // By a worker. All else is destroyed by the main thread: what is freed of Godot's in another is freed
+    // later, or never.
+    struct DestroyedAside {
+        void operator()(RunningWorld* running) const;
+    };
+
     SceneView& view() { return model_ != nullptr ? static_cast<SceneView&>(*model_) : bodies_; }
     std::string problem_of_time() const;
     void synchronise_bodies(double seconds);
@@ -107,11 +113,11 @@ private:
 
     HapticWorld& world_;
     std::vector<std::uint64_t> link_nodes_;  // ids of the MMTLinks of its links; 0: it has left
-    RunningWorld running_;
-    std::unique_ptr<ModelView> model_;   // at the operator; else null
-    std::vector<ModelNews> model_news_;  // for its link's node
-    Nanoseconds model_changed_ = 0;      // when it did last
-    bool is_model_compared_ = false;     // since then
+    std::unique_ptr<RunningWorld, DestroyedAside> running_;  // ends last: what follows asks it
+    std::unique_ptr<ModelView> model_;                       // at the operator; else null
+    std::vector<ModelNews> model_news_;                      // for its link's node
+    Nanoseconds model_changed_ = 0;                          // when it did last
+    bool is_model_compared_ = false;                         // since then
     bool is_busy_ = false;
     const bool engine_moves_;        // see RunSettings
     bool is_starting_ = true;        // nothing has been looked at yet
