@@ -86,7 +86,8 @@ void read(const Generic6DOFJoint3D& node, JointReading& reading) {
     }
 }
 
-JointReading read_joint(const Joint3D& node) {
+// Where Godot's own physics moves the bodies, it carries out each of its joints.
+JointReading read_joint(const Joint3D& node, bool engine_moves) {
     JointReading reading;
     if (const auto* hinge = Object::cast_to<HingeJoint3D>(&node)) {
         read(*hinge, reading);
@@ -109,23 +110,27 @@ JointReading read_joint(const Joint3D& node) {
         reading.problem = std::move(wrong);
         reading.usable = false;
     }
+    if (engine_moves) {
+        reading.problem.clear();
+    }
     return reading;
 }
 
-}  // namespace
-
-std::string problem_of_joint(const Joint3D& node) {
-    if (std::string problem = read_joint(node).problem; !problem.empty()) {
-        return problem;
-    }
-    if (node.get_node_a().is_empty() && node.get_node_b().is_empty()) {
-        return "it joins nothing: set node_a, node_b or both";
-    }
+// Of a path that is set and leads to no body; empty where there is none.
+std::string problem_of_paths(const Joint3D& node) {
     for (const auto& [property, path] :
          {std::pair("node_a", node.get_node_a()), {"node_b", node.get_node_b()}}) {
         if (!path.is_empty() && !is_solid_body(node.get_node_or_null(path))) {
             return from_godot(wrong_path(property, path, "a body") + ", or leave it empty for the world");
         }
+    }
+    return {};
+}
+
+// Why nothing is joined although no path is wrong; empty where something is.
+std::string problem_of_ends(const Joint3D& node) {
+    if (node.get_node_a().is_empty() && node.get_node_b().is_empty()) {
+        return "it joins nothing: set node_a, node_b or both";
     }
     const auto can_move = [&node](const NodePath& path) {
         const godot::Node* body = path.is_empty() ? nullptr : node.get_node_or_null(path);
@@ -137,12 +142,26 @@ std::string problem_of_joint(const Joint3D& node) {
     return {};
 }
 
+}  // namespace
+
+std::string problem_of_joint(const Joint3D& node, bool engine_moves) {
+    std::string problem = read_joint(node, engine_moves).problem;
+    problem = problem.empty() ? problem_of_paths(node) : problem;
+    return problem.empty() ? problem_of_ends(node) : problem;
+}
+
 bool GodotJoint::is_there() const {
     return godot::UtilityFunctions::is_instance_id_valid(static_cast<int64_t>(id_));
 }
 
 JointReading GodotJoint::read() const {
-    return read_joint(node_);
+    return read_joint(node_, engine_moves_);
+}
+
+std::string GodotJoint::problem() const {
+    std::string problem = problem_of_paths(node_);
+    const bool is_whole = !node_.get_node_a().is_empty() && !node_.get_node_b().is_empty();
+    return problem.empty() && is_whole ? problem_of_ends(node_) : problem;
 }
 
 SceneJoint::End GodotJoint::end_of(const NodePath& path) const {

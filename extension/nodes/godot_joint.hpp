@@ -8,13 +8,14 @@
 
 namespace tactus {
 
-// What a joint node lacks as it stands in the scene; empty where nothing.
-std::string problem_of_joint(const godot::Joint3D& node);
+// What a joint node lacks as it stands in the scene; empty where nothing. `engine_moves`: Godot's own physics
+// moves the bodies, and carries out every joint.
+std::string problem_of_joint(const godot::Joint3D& node, bool engine_moves);
 
 class GodotJoint final : public SceneJoint {
 public:
-    GodotJoint(godot::Joint3D& node, Complaints& complaints)
-        : id_(node.get_instance_id()), node_(node), complaints_(complaints) {}
+    GodotJoint(godot::Joint3D& node, bool engine_moves, Complaints& complaints)
+        : id_(node.get_instance_id()), node_(node), engine_moves_(engine_moves), complaints_(complaints) {}
 
     std::uint64_t id() const override { return id_; }
     bool is_there() const override;
@@ -22,7 +23,7 @@ public:
     JointReading read() const override;
     End first() const override { return end_of(node_.get_node_a()); }
     End second() const override { return end_of(node_.get_node_b()); }
-    std::string problem() const override { return problem_of_joint(node_); }
+    std::string problem() const override;
     void say(const std::string& problem) const override { complaints_.say(node_, problem); }
 
 private:
@@ -30,6 +31,7 @@ private:
 
     std::uint64_t id_;
     godot::Joint3D& node_;  // while it is there
+    bool engine_moves_;
     Complaints& complaints_;
 };
 

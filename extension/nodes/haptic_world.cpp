@@ -85,7 +85,8 @@ void warn_of(Node& node, bool engine_moves, PackedStringArray& warnings) {
             warn(warnings, name + String(" cannot be touched as it should be"), to_godot(problem));
         }
     } else if (const auto* joint = Object::cast_to<Joint3D>(&node)) {
-        warn(warnings, name + String(" does not join as it should"), to_godot(problem_of_joint(*joint)));
+        warn(warnings, name + String(" does not join as it should"),
+             to_godot(problem_of_joint(*joint, engine_moves)));
     } else {
         for (const std::string& problem : passed_over(node, engine_moves)) {
             warn(warnings, name + String(" is not carried out as Godot has it"), to_godot(problem));

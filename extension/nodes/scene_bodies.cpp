@@ -75,7 +75,7 @@ void SceneBodies::find(Session& session) {
         return std::make_unique<GodotBody>(*node_of_id<CollisionObject3D>(id), scene_, mirrors_.news());
     };
     const auto make_joint = [this](std::uint64_t id) {
-        return std::make_unique<GodotJoint>(*node_of_id<Joint3D>(id), scene_.complaints);
+        return std::make_unique<GodotJoint>(*node_of_id<Joint3D>(id), scene_.engine_moves, scene_.complaints);
     };
     mirrors_.match(bodies, make_body, joints, make_joint, session);
     arriving_.clear();

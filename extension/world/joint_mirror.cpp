@@ -33,13 +33,15 @@ void JointMirror::synchronise(Session& session, const FindMirror& mirror_of) {
     }
     if (!reading.usable || !first || !second || first->source == 0) {
         release(session);
-        problem_ = joint_->problem();
     } else {
         twin_.synchronise(session, reading.joint, *first, *second);
-        problem_ = !twin_.problem().empty()   ? twin_.problem()
-                   : !reading.problem.empty() ? reading.problem
-                                              : joint_->problem();
     }
+    // A game that empties a joint, or frees what it held, makes no mistake.
+    const bool has_joined = twin_.revision() > 0;
+    problem_ = !twin_.problem().empty()   ? twin_.problem()
+               : !reading.problem.empty() ? reading.problem
+               : has_joined               ? std::string()
+                                          : joint_->problem();
     joint_->say(problem_);
 }
 

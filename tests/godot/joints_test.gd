@@ -197,3 +197,43 @@ func test_joints_of_other_kinds_are_named() -> void:
 	expect_error("a ConeTwistJoint3D is not carried out: use a PinJoint3D")
 	world.advance(TICK)
 	check_equal(world.get_problems().size(), 1, "problems")
+
+
+func _check_quiet(world: HapticWorld) -> void:
+	world.advance(TICK)
+	check_equal(world.get_problems(), PackedStringArray(), "problems")
+
+
+## Any warning of the running game fails this test. The editor still warns of a joint that is left empty.
+func test_a_game_that_empties_a_joint_is_told_nothing() -> void:
+	var world := add_world()
+	var a := _block(world, "A", Vector3.ZERO)
+	_block(world, "B", Vector3(0.5, 0, 0))
+	var joint := PinJoint3D.new()
+	joint.exclude_nodes_from_collision = false  # Godot leaves its exceptions behind
+	_joined(world, joint, "", "")
+	_check_quiet(world)
+	check(" ".join(world._list_warnings()).contains("joins nothing"), "no configuration warning")
+	joint.node_a = NodePath("../A")
+	joint.node_b = NodePath("../B")
+	_check_quiet(world)
+	joint.node_a = NodePath()
+	_check_quiet(world)
+	joint.node_b = NodePath()
+	_check_quiet(world)
+	joint.node_a = NodePath("../A")
+	_check_quiet(world)
+	a.free()
+	_check_quiet(world)
+
+
+func test_godot_carries_out_every_joint_of_bodies_that_it_moves() -> void:
+	var world := add_world()
+	world.authority = HapticWorld.AUTHORITY_GODOT
+	_block(world, "B", Vector3.ZERO)
+	_joined(world, ConeTwistJoint3D.new(), "", "B")
+	var six := Generic6DOFJoint3D.new()
+	six.set_flag_x(Generic6DOFJoint3D.FLAG_ENABLE_LINEAR_SPRING, true)
+	_joined(world, six, "", "B")
+	_check_quiet(world)
+	check(not " ".join(world._list_warnings()).contains("does not join"), "a configuration warning")

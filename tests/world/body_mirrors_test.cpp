@@ -379,6 +379,20 @@ TEST(JointMirror, OneThatJoinsNothingDoesNot) {
     EXPECT_EQ(scene.mirrors.joints().front()->problem(), "it joins nothing");
 }
 
+TEST(JointMirror, AGameThatEmptiesAJointMakesNoMistake) {
+    Scene scene;
+    scene.add(0.0);
+    scene.join(0, 1);
+    scene.frames(2);
+    JointProp& joint = scene.joints.front();
+    joint.first = joint.second = {};
+    joint.problem = "it joins nothing";
+    scene.frames(2);
+    EXPECT_EQ(scene.mirrors.joints().front()->twin().handle(), no_handle);
+    EXPECT_TRUE(joint.said.empty());
+    EXPECT_TRUE(scene.mirrors.problems().empty());
+}
+
 // A frame that turns by small rotations loses its scale bit by bit.
 TEST(BodyMirrors, CitizenABodyWhoseScaleDriftsIsNotMadeAnew) {
     Scene scene;
