@@ -336,6 +336,9 @@ class ClassTable:
             return ("" if kind == "float" else "a whole number ") + f"between {self.limits(member, ' and ')}"
         if kind == "Vector3":
             return f"finite, and no longer than {in_words(member.get('max'))}{self.unit(member)}"
+        if kind.startswith("Packed"):
+            element = re.sub(r"(Int|Float)\d+$", lambda found: found[1].lower(), kind.removeprefix("Packed").removesuffix("Array"))
+            return f"a {kind}, or an Array of {element}"
         return {"bool": "true or false"}.get(kind, f"a {kind}" + ("" if kind in VARIANT_TYPES else ", or none"))
 
     def statistics(self, statistics):

@@ -28,6 +28,34 @@ bool is_within(const PropertyLimits& limits, const Variant& value) {
     return limits.one_of == 0 || (limits.one_of >> static_cast<std::uint64_t>(number) & 1u) != 0;
 }
 
+// What a packed array is made of; NIL: it is no packed array.
+Variant::Type element_of(Variant::Type packed) {
+    switch (packed) {
+        case Variant::PACKED_VECTOR3_ARRAY:
+            return Variant::VECTOR3;
+        case Variant::PACKED_STRING_ARRAY:
+            return Variant::STRING;
+        case Variant::PACKED_INT32_ARRAY:
+            return Variant::INT;
+        case Variant::PACKED_FLOAT32_ARRAY:
+        case Variant::PACKED_FLOAT64_ARRAY:
+            return Variant::FLOAT;
+        default:
+            return Variant::NIL;
+    }
+}
+
+// Godot puts 0 in place of an element of another kind.
+bool is_array_of(Variant::Type element, const Array& array) {
+    for (int64_t i = 0; i < array.size(); ++i) {
+        const Variant::Type type = array[i].get_type();
+        if (type != element && !(element == Variant::FLOAT && type == Variant::INT)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 bool is_allowed(const PropertyLimits& limits, const Variant& value) {
     switch (limits.type) {
         case Variant::BOOL:
@@ -47,7 +75,9 @@ bool is_allowed(const PropertyLimits& limits, const Variant& value) {
             return value.get_type() == Variant::STRING || value.get_type() == Variant::STRING_NAME ||
                    value.get_type() == Variant::NODE_PATH;
         default:
-            return value.get_type() == limits.type;
+            return value.get_type() == limits.type ||
+                   (element_of(limits.type) != Variant::NIL && value.get_type() == Variant::ARRAY &&
+                    is_array_of(element_of(limits.type), static_cast<Array>(value)));
     }
 }
 

@@ -55,6 +55,28 @@ func test_setters_refuse_what_makes_no_sense() -> void:
 	touched.free()
 
 
+## As Godot's own properties do.
+func test_an_array_will_do_for_a_packed_one() -> void:
+	var way := HapticPath.new()
+	way.points_positions = [Vector3.ZERO, Vector3.ONE]
+	way.points_times = [0, 1.5]
+	check_equal(way.points_positions, PackedVector3Array([Vector3.ZERO, Vector3.ONE]), "positions")
+	check_equal(way.points_times, PackedFloat64Array([0.0, 1.5]), "times")
+	var soft := HapticSoftBody.new()
+	soft.held_vertices = [1, 2]
+	check_equal(soft.held_vertices, PackedInt32Array([1, 2]), "vertices")
+	soft.free()
+	var wrong := {
+		"points_positions": [[Vector3.ZERO, 1.0], "a PackedVector3Array, or an Array of Vector3"],
+		"points_times": [[0.0, "1"], "a PackedFloat64Array, or an Array of float"],
+	}
+	for property: String in wrong:
+		var before: Variant = way.get(property)
+		expect_error("it must be " + wrong[property][1])
+		way.set(property, wrong[property][0])
+		check_equal(way.get(property), before, property)
+
+
 func test_a_proxy_whose_device_is_nowhere() -> void:
 	var world := add_world()
 	add_floor(world)
