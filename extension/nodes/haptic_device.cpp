@@ -35,8 +35,12 @@ const Color box_color(0.1f, 0.4f, 0.9f, 0.5f);
 
 }  // namespace
 
-void HapticDevice::changed() {
+void HapticDevice::path_changed() {
     path_problem_ = path_.is_valid() ? path_->get_problem() : String();
+    changed_for(follows_path(kind()) || driver_ == HandKind::automatic);
+}
+
+void HapticDevice::changed() {
     path_end_ = path_end();
     hand_ = {};
     is_path_end_told_ = false;

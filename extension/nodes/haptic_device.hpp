@@ -82,6 +82,13 @@ private:
     void tell_path_end();
     void changed();
     void driver_changed();
+    void path_changed();
+    // A property of some kinds of hands: any other hand goes on as it is.
+    void changed_for(bool is_used) { is_used ? changed() : void(); }
+    void target_changed() { changed_for(kind() == HandKind::node || kind() == HandKind::robot_tip); }
+    void vendor_changed() { changed_for(has_driver(kind())); }
+    void falcon_changed() { changed_for(kind() == HandKind::falcon); }
+    void robot_changed() { changed_for(kind() == HandKind::emulated_robot); }
     void arm_changed() { hand_.change(plan_.arm); }
     // The one that is meant where that is left open.
     HandKind kind() const;

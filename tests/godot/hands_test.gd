@@ -124,6 +124,53 @@ func test_a_hand_without_its_node_says_so() -> void:
 	device.free()
 
 
+## A hand that presses 5 mm deep.
+func test_a_property_of_another_driver_leaves_the_hand_as_it_is() -> void:
+	var world := add_world()
+	add_floor(world, 1000.0)
+	add_hand(world, path(Vector3(0, 0.02, 0), Vector3(0, 0.005, 0), 0.2))
+	var device: HapticDevice = world.get_node("Device")
+	world.advance(0.5)
+	var pressing := device.get_force()
+	check_near(pressing.length(), 5.0, 0.01, "force")
+	var others := {
+		"target": NodePath("../Floor"),
+		"firmware": "res://none.bin",
+		"device_id": "7",
+		"gravity_compensation": 1.0,
+		"table_height": 0.01,
+		"robot_mass_error": 0.1,
+		"robot_friction_error": 0.1,
+	}
+	for property: String in others:
+		device.set(property, others[property])
+		for _i in 3:
+			world.advance(TICK)
+			check_near(device.get_force(), pressing, 1e-6, "force after " + property)
+
+
+func test_a_path_leaves_a_hand_as_it_is_that_follows_a_node() -> void:
+	var world := add_world()
+	add_floor(world, 1000.0)
+	var leader := Node3D.new()
+	world.add_child(leader)
+	var device := _device(world, HapticDevice.DRIVER_NODE)
+	device.target = device.get_path_to(leader)
+	var tip := ProxyPointer.new()
+	tip.device = NodePath("../Device")
+	world.add_child(tip)
+	leader.position.y = 0.02
+	await _play(world, 2)
+	leader.position.y = 0.005
+	await _play(world, 60)
+	var pressing := device.get_force()
+	check(pressing.y > 1.0, "force %s" % pressing)
+	device.path = path(Vector3.ZERO, Vector3.ONE)
+	for _i in 3:
+		world.advance(TICK)
+		check_near(device.get_force(), pressing, 1e-6, "force")
+
+
 func test_what_another_driver_needs_is_not_shown() -> void:
 	var device := HapticDevice.new()
 	for driver: int in [
