@@ -1,10 +1,10 @@
 #include "core/proxy/proxy.hpp"
 
 #include <algorithm>
-#include <array>
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "core/math/along_normals.hpp"
 #include "core/safety/hand_place.hpp"
 
 namespace tactus {
@@ -58,22 +58,13 @@ void Proxy::go_along(const Vec3& offset, int body) {
         displace(offset);
         return;
     }
-    Vec3 pushed(0.0);
-    std::array<Vec3, TouchList::capacity> across;  // the body's normals, made orthogonal
-    int count = 0;
+    AlongNormals pushed;
     for (const Touch& touch : touching()) {
-        Vec3 normal = touch.body == body ? touch.normal : Vec3(0.0);
-        for (int i = 0; i < count; ++i) {
-            normal -=
-                glm::dot(normal, across[static_cast<std::size_t>(i)]) * across[static_cast<std::size_t>(i)];
-        }
-        if (const double length = glm::length(normal); length > 1e-6) {
-            normal /= length;
-            across[static_cast<std::size_t>(count++)] = normal;
-            pushed += glm::dot(offset, normal) * normal;
+        if (touch.body == body) {
+            pushed.add(touch.normal);
         }
     }
-    displace(pushed);
+    displace(pushed.part_of(offset));
 }
 
 // A proxy cannot start inside a surface: it appears where the hand is once there is room, so touch begins

@@ -100,8 +100,9 @@ public:
     ToolMemory memory() const;
     // In the scene as it is.
     void recall(const ToolMemory& memory, const TouchScene& scene);
-    // A correction takes the body elsewhere, and the tool with it as far as nothing else is in the way. In
-    // the scene as it is before that.
+    // A correction takes the body elsewhere: the tool goes with it where it rests on it hardest and does not
+    // slide, and else only as far as the body pushes it; as far as nothing else is in the way. In the scene
+    // as it is before that.
     void go_along(const TouchScene& scene, const Pose& motion, int body);
     // Of the last move, as WorkBudget counts.
     std::int64_t work_spent() const { return work_given_ - work_.left(); }
@@ -142,6 +143,7 @@ private:
     RigidMotion way_of_form(int body) const;
     std::span<const ToolTouch>::iterator hardest_touch() const;
     int carrier() const;
+    Pose place_after(const Pose& motion, int body) const;
     double way_since(const Pose& from) const;
     bool look_around(const RigidMotion& pull, double far, bool is_first);
     void descend(const Pose& hand, ToolTick& tick);

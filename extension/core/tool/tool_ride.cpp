@@ -4,6 +4,7 @@
 #include <glm/matrix.hpp>
 
 #include "core/haptics/surface_way.hpp"
+#include "core/math/along_normals.hpp"
 #include "core/math/body_motion.hpp"
 #include "core/tool/tool_pair.hpp"
 #include "core/tool/tool_proxy.hpp"
@@ -200,10 +201,31 @@ bool ToolProxy::ride_forms(double& taken) {
     return has_room;
 }
 
+// Where a correction takes the tool: with the body where friction holds it there, and else out of its way.
+Pose ToolProxy::place_after(const Pose& motion, int body) const {
+    if (!sliding_ && body == carrier()) {
+        return compose(motion, pose_);
+    }
+    AlongNormals pushed;
+    Vec3 way(0.0);
+    double most = 0.0;
+    for (const ToolTouch& touch : touching()) {
+        const double pressing = glm::dot(touch.force, touch.normal);
+        if (touch.body == body) {
+            pushed.add(touch.normal);
+            if (pressing > most) {
+                most = pressing;
+                way = to_parent(motion, touch.point) - touch.point;
+            }
+        }
+    }
+    return {pose_.position + pushed.part_of(way), pose_.rotation};
+}
+
 void ToolProxy::go_along(const TouchScene& scene, const Pose& motion, int body) {
     constexpr int max_parts_of_turn = 16;
     scene_ = &scene;
-    const Pose there = compose(motion, pose_);
+    const Pose there = place_after(motion, body);
     give_work(settings_.max_work);
     around_.begin_tick(scene, settings_.mask, pose_,
                        2.0 * around_.farthest_way(motion_between(pose_, there)));

@@ -466,5 +466,22 @@ TEST(ToolProxy, GoesAlongWithACorrectionUpToWhatIsInTheWay) {
     EXPECT_GT(rig.proxy().pose().position.x, 0.03);
 }
 
+// On a floor that holds it, a body beside it that is corrected does not rub it along, but pushes it.
+TEST(ToolProxy, GoesAlongWithWhatItRestsOnHardest) {
+    for (const bool leans_on_wall : {false, true}) {
+        ToolRig rig = bar_over_floor({500.0, 0.0, 0.1, 0.1});
+        const int wall = 1;
+        rig.add(shared::box({0.01, 0.2, 0.2}), {}, {{0.1, 0.0, 0.0}, upright});
+        settle(rig, {{0.0, 0.03, 0.0}, upright}, 2);
+        settle(rig, {{0.045, 0.03, 0.0}, upright});
+        settle(rig, {leans_on_wall ? Vec3(0.07, 0.005, 0.0) : Vec3(0.045, -0.02, 0.0), upright}, 100);
+        const Vec3 before = rig.proxy().pose().position;
+        rig.proxy().go_along(rig.scene(), {{-0.001, 0.0, 0.002}, upright}, wall);
+        const Vec3 way = rig.proxy().pose().position - before;
+        EXPECT_NEAR(way.z, leans_on_wall ? 0.002 : 0.0, 1e-9);
+        EXPECT_NEAR(way.x, -0.001, 1e-9);
+    }
+}
+
 }  // namespace
 }  // namespace tactus::tool_proxy_test
