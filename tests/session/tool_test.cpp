@@ -1,4 +1,6 @@
 // Tools beside fingertips: what the hand feels of them, and what they do to bodies.
+#include <algorithm>
+#include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <vector>
 
@@ -116,6 +118,36 @@ TEST(Tool, PressesABlockOntoTheGroundAndNothingRings) {
     rig.ticks(500);
     EXPECT_LT(glm::distance(rig.state_of(handle)->pose.position, before), 1e-5);
     EXPECT_LT(glm::distance(rig.tool_state().force, force), 0.02);
+}
+
+// A box turns away under a tool that is pressed onto it near an edge, 3 mm deep. In a tick the force changes
+// by what the edge has gone, twice at most, and not by all that the tool has slipped.
+TEST(Tool, ItsForceFadesWhereItSlipsOffATurningBody) {
+    const ToolShapeResult cube = make_tool_shape(shared::box(Vec3(0.005)), {1e-3, 500});
+    for (const double rate : {2.0, 4.0, 8.0}) {
+        for (const double friction : {0.0, 0.3}) {
+            ToolRig rig(weightless());
+            rig.session.remove_tool(rig.tool);
+            rig.session.add_tool(cube.shape, rig.use);
+            BodyAddition turning = body(BoxShape{Vec3(0.04)}, Vec3(0.0), Motion::Kinematic);
+            turning.touch_material.static_friction = turning.touch_material.dynamic_friction = friction;
+            const SessionHandle id = rig.add(turning);
+            rig.draw({0.0, 0.05, 0.035}, 100);
+            rig.draw({0.0, 0.042, 0.035}, 100);
+            rig.session.set_body_velocity(id, Vec3(0.0), {-rate, 0.0, 0.0});
+            const double way = rate * std::hypot(0.045, 0.045) * 1e-3;  // of the edge in a tick
+            Vec3 before = rig.device.force;
+            double most = 0.0;
+            for (int i = 0; i < 800; ++i) {
+                rig.tick();
+                most = std::max(most, glm::distance(rig.device.force, before));
+                before = rig.device.force;
+            }
+            EXPECT_GT(most, 0.2);
+            EXPECT_LT(most, std::max(1.02 * FadingForce::max_step, 2.0 * rig.use.settings.stiffness * way))
+                << rate << " rad/s, friction " << friction;
+        }
+    }
 }
 
 // Blocks that bounce off one another and off the tool are no squeeze.

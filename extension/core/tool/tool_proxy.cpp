@@ -6,7 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "core/proxy/tolerances.hpp"
 #include "core/safety/hand_place.hpp"
 #include "core/tool/tool_pair.hpp"
 #include "core/tool/tool_steps.hpp"
@@ -203,7 +202,7 @@ void ToolProxy::finish(ToolTick& tick) {
     tick.pose = pose_;
     tick.force = pull.way * -settings_.stiffness;
     tick.torque = pull.turn * -settings_.turning_stiffness;
-    const bool slipped = way_since(start_) > max_sensitivity * given_way_ + skin();
+    const bool slipped = way_since(start_) > farthest_led * given_way_ + skin();
     tick.jumped = tick.jumped || slipped;
     const bool slides = sliding_ && touch_count_ > 0;
     const bool slides_on_tool = meeting_count_ > 0 && std::ranges::any_of(pairs(), &ToolPair::sliding);

@@ -35,6 +35,11 @@ constexpr int slide_rounds = 4;  // of the pressure and the friction that goes w
 // lifts the tool out of less), and one that comes to be there before the tool begins anew.
 constexpr double entered = 0.5;
 
+// Of the way that the hand and what carries the tool have led it in a tick. What goes farther has slipped,
+// off the edge of a body that turns away, say, and its force fades. Were it as much as a proxy's
+// (max_sensitivity), such a force would change by up to 1.3 N at once.
+constexpr double farthest_led = 2.0;
+
 // Of the tool's reach: how far bodies may take it in a tick, besides the way of the fastest of them.
 constexpr double farthest_ride = 0.2;
 // Of that way: 50 m/s, at a thousand ticks a second (unit: meters).
