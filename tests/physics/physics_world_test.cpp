@@ -303,6 +303,31 @@ TEST(PhysicsWorld, ContinuousBodyDoesNotPassAThinWall) {
     EXPECT_LT(world.pose(id).position.x, 0.0);
 }
 
+// A needle that goes farther in a tick than it and the wall are thick.
+TEST(PhysicsWorld, ContinuousNeedleDoesNotPassAThinWall) {
+    PhysicsSettings settings;
+    settings.gravity = Vec3(0.0);
+    int passed = 0;
+    for (const bool is_continuous : {false, true}) {
+        for (int i = 0; i < 20; ++i) {
+            PhysicsWorld world(settings);
+            BodyDescription wall = box({0.002, 1.0, 1.0}, Vec3(0.0), 1.0);
+            wall.motion = Motion::Static;
+            add(world, wall);
+            BodyDescription needle = box({0.0012, 0.0012, 0.03}, {-0.1, 0.0, 0.0}, 0.03);
+            needle.linear_velocity = {5.0 + 0.3 * i, 0.2, 0.1};
+            needle.angular_velocity = {0.0, 2.0 * i, 1.0};
+            needle.continuous = is_continuous;
+            const BodyId id = add(world, needle);
+            run(world, 100);
+            const bool is_through = world.pose(id).position.x > 0.0;
+            passed += is_through ? 1 : 0;
+            EXPECT_FALSE(is_continuous && is_through) << i;
+        }
+    }
+    EXPECT_GT(passed, 0);  // without it some do
+}
+
 TEST(PhysicsWorld, LockedAxesStayLocked) {
     PhysicsWorld world;
     BodyDescription body = box(Vec3(0.1), Vec3(0.0), 1.0);
