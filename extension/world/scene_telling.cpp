@@ -10,7 +10,8 @@ void tell(const BodyMirrors& scene, const std::vector<std::unique_ptr<WorldLink>
     std::vector<WorldLink::Told> told;
     std::vector<const BodyMirror*> mirrors;
     for (const auto& mirror : scene.bodies()) {
-        if (mirror->handle() != no_handle && mirror->body() != nullptr) {
+        const SceneBody* const body = mirror->body();
+        if (mirror->handle() != no_handle && body != nullptr && body->is_in_scene()) {
             told.push_back({mirror->handle(), mirror->twin().revision()});
             mirrors.push_back(mirror.get());
         }

@@ -51,6 +51,24 @@ func test_a_far_body_with_another_name_or_parent_is_told() -> void:
 	check_equal(_here.get_statistics().objects, 1, "objects")
 
 
+## Before the world has noticed: it has no path then, and Godot would complain.
+func test_a_far_body_that_is_taken_out_of_the_tree_is_gone_and_comes_back() -> void:
+	await _connect(MMTLink.SCENARIO_MMT)
+	var floor_body := add_floor(_far, STIFFNESS)
+	_advance(0.5)
+	var names := []
+	_here.object_discovered.connect(func(name: String, _node: Node3D) -> void: names.append(name))
+	_far.remove_child(floor_body)
+	_advance(0.5)
+	await frames(1)
+	_advance(0.5)
+	check_equal(_here.get_statistics().objects, 0, "objects while it is away")
+	_far.add_child(floor_body)
+	await frames(1)
+	_advance(0.5)
+	check_equal(names, ["Floor"], "names")
+
+
 func test_a_model_that_is_described_slowly_is_touched_once_it_is_whole() -> void:
 	await _connect(MMTLink.SCENARIO_MMT)
 	_there.conditions.rate = 64_000.0
