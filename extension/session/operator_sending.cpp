@@ -1,6 +1,7 @@
 // What the operator's side tells the far side.
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "core/geometry/surface_query.hpp"
 #include "session/operator_side.hpp"
@@ -51,8 +52,9 @@ void OperatorSide::send(SentHand& sent, const OperatorSample& sample, bool says_
 
 // Whether a hand is there for the far side. One that comes and has no room in the model presses nothing
 // there, and nothing at the far side. One that a correction has left no room presses on there.
-bool OperatorSide::is_told(SentHand& sent, bool is_held, bool has_room) const {
-    sent.had_room = is_held && (sent.had_room || has_room || settings().traditional);
+bool OperatorSide::is_told(SentHand& sent, std::uint32_t start, bool is_held, bool has_room) const {
+    const bool has_come = std::exchange(sent.start, start) != start;
+    sent.had_room = is_held && ((sent.had_room && !has_come) || has_room || settings().traditional);
     return sent.had_room && !waits_for_model();
 }
 
@@ -88,7 +90,8 @@ void OperatorSide::send_sample(SessionLoop& loop, std::size_t index, Nanoseconds
     sample.sequence = sample_;
     sample.time = channel_.link().local_time(now);
     sample.pointer = static_cast<std::uint16_t>(index);
-    sample.connected = is_told(pointer.sent, device.connected, (slot.state.status & proxy_absent) == 0);
+    sample.connected = is_told(pointer.sent, slot.proxy->starts(), device.connected,
+                               (slot.state.status & proxy_absent) == 0);
     sample.buttons = device.buttons;
     const Pose& frame = settings().frame;
     sample.position = to_local(frame, slot.hand);

@@ -68,7 +68,8 @@ private:
 
     // What the far side has been sent of a hand.
     struct SentHand {
-        bool had_room = false;  // in the model, since the hand came
+        bool had_room = false;    // in the model, since the hand came
+        std::uint32_t start = 0;  // of its proxy: another one is a hand that comes
         OperatorSample last;
         Nanoseconds at = 0;
         SampleSequence since = no_sample;         // the first one that says what `last` says; no_sample: none
@@ -225,7 +226,7 @@ private:
     void acknowledge();
     bool is_guessed(const SentHand& sent, const OperatorSample& sample) const;
     bool is_due(const SentHand& sent, Nanoseconds now) const;
-    bool is_told(SentHand& sent, bool is_held, bool has_room) const;
+    bool is_told(SentHand& sent, std::uint32_t start, bool is_held, bool has_room) const;
     void send_absence(SentHand& sent, Nanoseconds now);
     void send(SentHand& sent, const OperatorSample& sample, bool says_nothing_new, Nanoseconds now);
     void send_sample(SessionLoop& loop, std::size_t index, Nanoseconds now);

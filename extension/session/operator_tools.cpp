@@ -264,8 +264,8 @@ void OperatorSide::send_tool(SessionLoop& loop, std::size_t index, const ToolSlo
     sample.sequence = sample_;
     sample.time = channel_.link().local_time(now);
     sample.pointer = static_cast<std::uint16_t>(first_tool + index);
-    sample.connected =
-        is_told(tool.sent, device.connected && slot.use.enabled, (slot.state.status & tool_absent) == 0);
+    sample.connected = is_told(tool.sent, slot.proxy.starts(), device.connected && slot.use.enabled,
+                               (slot.state.status & tool_absent) == 0);
     sample.buttons = device.buttons;
     sample.position = place.position;
     sample.velocity = direction_to_local(frame, slot.hand.velocity);

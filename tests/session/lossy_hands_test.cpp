@@ -45,8 +45,8 @@ TEST(LossyHands, NothingGetsThroughForAWhile) {
 // The model's hand begins inside the plate and feels nothing: nor does the far one press.
 TEST(LossyHands, AHandThatComesBackInsideABodyPressesNothing) {
     for (const LossyHand hand : {LossyHand::fingertip, LossyHand::tool, LossyHand::robot}) {
-        for (const Absence absence : {Absence::pointer, Absence::device}) {
-            SCOPED_TRACE(static_cast<int>(hand) * 2 + static_cast<int>(absence));
+        for (const Absence absence : {Absence::pointer, Absence::device, Absence::another_device}) {
+            SCOPED_TRACE(static_cast<int>(hand) * 3 + static_cast<int>(absence));
             const AbsentFigures figures = run_absent(hand, absence);
             EXPECT_GT(figures.pressed, 1.0);
             EXPECT_LT(figures.away, 0.1);

@@ -114,13 +114,15 @@ public:
         const auto hold = [&](bool is_there) {
             if (absence == Absence::device) {
                 device_.connected = is_there;
-            } else if (is_tool()) {
-                tool_.enabled = is_there;
-                near_.set_tool(0, tool_);
-            } else {
-                pointer_.enabled = is_there;
-                near_.set_proxy(0, pointer_);
+                return;
             }
+            if (absence == Absence::another_device && !is_there) {
+                other_device_.position.y = motion.press - 0.005;
+                pointer_.device = tool_.device = near_.add_device(other_device_, workspace()).handle;
+            } else {
+                tool_.enabled = pointer_.enabled = is_there;
+            }
+            is_tool() ? near_.set_tool(0, tool_) : near_.set_proxy(0, pointer_);
         };
         hold(false);
         for (int i = 0; i < 500; ++i) {
@@ -243,7 +245,7 @@ private:
     std::shared_ptr<TeleopPort> near_port_ = std::make_shared<TeleopPort>();
     std::shared_ptr<TeleopPort> far_port_ = std::make_shared<TeleopPort>();
     std::shared_ptr<TipExchange> exchange_ = std::make_shared<TipExchange>();
-    TurningHand device_, far_device_;
+    TurningHand device_, other_device_, far_device_;
     ProxyDescription pointer_;
     ToolUse tool_;
     std::unique_ptr<TipDevice> tip_;

@@ -35,8 +35,9 @@ std::vector<LossyCase> lossy_cases();
 LossyFigures run_lossy(const LossyCase& one, std::uint64_t seed);
 
 // The operator's hand presses and goes while it does: its pointer is switched off, or its device is gone.
-// Half a second later it is there again, inside the plate.
-enum class Absence : std::uint8_t { pointer, device };
+// Half a second later it is there again, inside the plate. Or another device takes its place at once, deeper
+// in the plate.
+enum class Absence : std::uint8_t { pointer, device, another_device };
 struct AbsentFigures {
     double pressed = 0.0;  // by the far hand, before (unit: newtons)
     double away = 0.0;     // by it, when the hand has been away for 0.5 s (unit: newtons)

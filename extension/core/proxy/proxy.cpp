@@ -50,6 +50,7 @@ void Proxy::restart() {
     hold_.friction.set_sliding(false);
     hold_.touching.clear();
     hold_.crowd.leave();
+    ++starts_;
 }
 
 void Proxy::go_along(const Vec3& offset, int body) {

@@ -74,6 +74,8 @@ public:
 
     // As if just started: present again as soon as the hand is in a free place.
     void restart();
+    // Restarts so far.
+    std::uint32_t starts() const { return starts_; }
 
 private:
     bool appear();
@@ -98,6 +100,7 @@ private:
     ProxySphere sphere_;
     ProxyHold hold_;
     bool present_ = false;
+    std::uint32_t starts_ = 0;
     Vec3 hand_{0.0};           // the last that was a place
     bool overlaps_ = false;    // a surface, since the last move
     bool unfinished_ = false;  // the last move was

@@ -95,7 +95,10 @@ public:
         present_ = false;
         touch_count_ = meeting_count_ = 0;
         is_changed_ = true;
+        ++starts_;
     }
+    // Restarts so far.
+    std::uint32_t starts() const { return starts_; }
 
     ToolMemory memory() const;
     // In the scene as it is.
@@ -168,6 +171,7 @@ private:
     const TouchScene* scene_ = nullptr;
     std::uint64_t revision_ = 0;
     std::uint64_t material_changes_ = 0;
+    std::uint32_t starts_ = 0;
     bool is_changed_ = false;  // itself, or with whom it is, since the last move
     double given_way_ = 0.0;   // of the hand and of what took it along, in this tick (unit: meters)
     Pose hand_;                // that was given last and is one
