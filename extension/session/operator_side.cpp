@@ -286,9 +286,7 @@ void OperatorSide::take(const ObjectStates& states, std::uint64_t packet, Sessio
     if (sample >= sample_) {
         return;
     }
-    if (sample != no_sample) {
-        statistics_.round_trip = static_cast<double>(sample_ - sample) * seconds_;
-    }
+    note_answer(sample);
     for (std::size_t i = 0; i < states.count; ++i) {
         const SessionHandle body = body_of(states.states[i].object);
         if (loop.body(body) && truths_.is_newer(body, packet)) {
@@ -323,6 +321,14 @@ void OperatorSide::take(const ObjectStates& states, std::uint64_t packet, Sessio
     }
 }
 
+// Only the first answer to a sample tells how long it takes: while no hand is played, none follows.
+void OperatorSide::note_answer(SampleSequence sample) {
+    if (sample > answered_) {
+        answered_ = sample;
+        statistics_.round_trip = static_cast<double>(sample_ - sample) * seconds_;
+    }
+}
+
 void OperatorSide::take(const ObjectEstimates& estimates, std::uint64_t packet) {
     for (std::size_t i = 0; i < estimates.count; ++i) {
         const SessionHandle body = body_of(estimates.estimates[i].object);
@@ -351,7 +357,7 @@ void OperatorSide::take(const ForceSample& force) {
         ++statistics_.stale_states;
         return;
     }
-    statistics_.round_trip = static_cast<double>(sample_ - force.newest_operator_sample) * seconds_;
+    note_answer(force.newest_operator_sample);
 }
 
 void OperatorSide::take(const WrenchSample& wrench) {
@@ -370,7 +376,7 @@ void OperatorSide::take(const WrenchSample& wrench) {
     if (!settings().robot) {  // a robot lags behind the hand, and what it touches is only seen
         resimulator_.note_tool(wrench.pointer - first_tool, wrench.newest_operator_sample, here.tool);
     }
-    statistics_.round_trip = static_cast<double>(sample_ - wrench.newest_operator_sample) * seconds_;
+    note_answer(wrench.newest_operator_sample);
 }
 
 void OperatorSide::take(const SampleAcknowledgements& acknowledgements) {

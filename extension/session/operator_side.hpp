@@ -156,6 +156,7 @@ private:
     void forget_place(std::uint32_t place);
     SessionHandle body_of(ObjectId object) const;
     void take(const ObjectStates& states, std::uint64_t packet, SessionLoop& loop);
+    void note_answer(SampleSequence sample);
     void take(const ForceSample& force);
     void take(const WrenchSample& wrench);
     void take(const ObjectEstimates& estimates, std::uint64_t packet);
@@ -237,6 +238,7 @@ private:
     SampleStream samples_;
     double seconds_;  // of a tick
     SampleSequence sample_ = no_sample;
+    SampleSequence answered_ = no_sample;  // the newest that the far side has answered
     TruthStore truths_;
     ModelPast past_;
     Resimulator resimulator_;

@@ -284,6 +284,17 @@ TEST(FarPresence, AToolThatIsFreedLeavesGently) {
     EXPECT_LE(leaves.largest_step, smooth_step);
 }
 
+// While no hand is played no sample is answered: that asks for no longer history.
+TEST(FarPresence, NoAnswerIsLateWhileNoHandIsPlayed) {
+    for (const bool at_operator : {true, false}) {
+        Pressing places({});
+        LinkedPlaces::Place& place = at_operator ? places.near : places.far;
+        place.session.set_proxy(0, places.pointer(false));
+        places.ticks(2000);
+        EXPECT_LT(places.statistics().round_trip, 0.1);
+    }
+}
+
 // The far side's own pointer is taken away under the hand, and another one is added: it begins where the
 // first was, not inside what that pressed.
 TEST(FarPresence, AFarPointerThatIsAddedAgainComesBackFromWhereItWas) {
