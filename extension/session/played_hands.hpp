@@ -57,6 +57,8 @@ public:
     // Whether the operator's hand was not there, see JitterBuffer::leads().
     bool leads(std::size_t pointer) const { return buffers_[pointer].leads(); }
     static bool leads(const ToolSlot& tool) { return tool.heard && tool.heard->leads(); }
+    bool is_outage(std::size_t pointer) const { return buffers_[pointer].is_outage(); }
+    static bool is_outage(const ToolSlot& tool) { return tool.heard && tool.heard->is_outage(); }
 
     // Once a tick: true where samples have come that stand, which are to be acknowledged.
     bool acknowledges(SampleAcknowledgements& message) {

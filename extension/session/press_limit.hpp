@@ -2,10 +2,10 @@
 // just come back, the hand may lie in a body that the operator does not touch. Then the hand is drawn back to
 // its proxy, and what it presses with changes gradually:
 //
-//     guessed           not at all where it was free when it was known last; where it touched, once a sample
-//     is
-//                       late, by `guessed_force` more at most
-//     comes (again)     from nothing; with a model no harder than the operator is pressed itself
+//     guessed, or led   not at all where it was free when it was known last; where it touched, once a sample
+//     after an outage   is late, by `guessed_force` more at most
+//     comes (again)     from nothing, or after an outage; with a model no harder than the operator is pressed
+//                       itself
 //     goes              to nothing, and the hand is gone
 //     here              no limit, once nothing is drawn back any more
 //
@@ -39,6 +39,8 @@ public:
         // On the operator's own hand (unit: newtons), where it is told.
         std::optional<double> own_force;
         double seconds = 0.001;  // of a tick
+        // Guessed: for longer than a guess lasts.
+        bool is_outage = false;
     };
 
     // The hand comes, or another operator's: from what it presses with now, where the last has not gone yet.
@@ -48,6 +50,8 @@ public:
     bool binds(Hand hand) const { return state_ != State::here || hand != Hand::here || holds_back_; }
     double depth() const { return depth_; }  // (unit: meters)
     bool is_gone() const { return depth_ <= 0.0; }
+    // From an outage: the operator's hand may have gone another way than this one.
+    bool returns() const { return state_ == State::returns; }
 
     // Once a tick in which it binds, before the hand is drawn back.
     void step(const In& in) {
@@ -61,8 +65,9 @@ public:
             const double more = guessed_force / in.stiffness;
             depth_ += change;
             depth_ = !touches ? 0.0 : is_bound ? std::min(depth_, std::min(known_, before_) + more) : depth_;
-            state_ = guessed_for_ > longest_guess && state_ == State::here ? State::returns : state_;
-        } else if (state_ == State::comes && in.own_force && in.force >= *in.own_force) {
+            const bool is_outage = in.is_outage || guessed_for_ > longest_guess;
+            state_ = is_outage && state_ == State::here ? State::returns : state_;
+        } else if (state_ != State::here && in.own_force && in.force >= *in.own_force) {
             // What is told is rounded: a step more is no more than the operator's own.
             const bool is_more = in.force > *in.own_force + slow_rate * in.seconds;
             depth_ = std::max(0.0, depth_ - (is_more ? change : 0.0));

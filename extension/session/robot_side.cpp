@@ -47,6 +47,10 @@ RobotSide::RobotSide(const SessionSettings& session, const TeleopSettings& setti
 void RobotSide::set_hands(SessionLoop& loop, Nanoseconds now) {
     const bool changed = channel_.begin_tick(now);
     telling_.take_orders(channel_.port());
+    // Before what has come is taken: after a standstill of this side the first tick hears the peer again.
+    if (!channel_.link().hears_peer()) {
+        release_hands(loop);
+    }
     receive(loop);
     hands_.follow(channel_, changed);
     for (std::size_t i = 0; i < max_proxies; ++i) {
@@ -61,11 +65,10 @@ void RobotSide::set_hands(SessionLoop& loop, Nanoseconds now) {
     }
 }
 
-// Another start of the operator: nobody holds anything.
-void RobotSide::restart(SessionLoop& loop) {
+// The operator is not there, or has started again.
+void RobotSide::release_hands(SessionLoop& loop) {
     statistics_.sample = no_sample;
     hands_.restart();
-    telling_.restart();
     for (Pointer& pointer : pointers_) {
         pointer.holds = false;
     }
@@ -80,7 +83,8 @@ void RobotSide::restart(SessionLoop& loop) {
 void RobotSide::receive(SessionLoop& loop) {
     while (const Packet* const packet = channel_.receive()) {
         if (channel_.peer_has_started()) {
-            restart(loop);
+            release_hands(loop);
+            telling_.restart();
         }
         if (const auto* const samples = std::get_if<OperatorSamples>(&packet->message)) {
             hands_.take(*samples,

@@ -74,7 +74,7 @@ private:
 
     const TeleopSettings& settings() const { return channel_.settings(); }
     void receive(SessionLoop& loop);
-    void restart(SessionLoop& loop);
+    void release_hands(SessionLoop& loop);
     static RobotBody body_of(const DeviceCapabilities& robot);
     Wall coupling_of(const RobotView& robot) const;
     void play(SessionLoop& loop, std::size_t index, const SessionLoop::ProxySlot& slot);

@@ -25,6 +25,10 @@ TeleoperatorSide::TeleoperatorSide(const SessionSettings& session, const TeleopS
 void TeleoperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
     const bool changed = channel_.begin_tick(now);
     telling_.take_orders(channel_.port());
+    // Before what has come is taken: after a standstill of this side the first tick hears the peer again.
+    if (!channel_.link().hears_peer()) {
+        release_hands(loop);
+    }
     receive(loop);
     hands_.follow(channel_, changed);
     if (!channel_.link().hears_peer()) {
@@ -126,8 +130,13 @@ void TeleoperatorSide::play(SessionLoop& loop, std::size_t index, SessionLoop::P
     slot.idle = pointer.goes = pointer.is_new = false;
     play_hand(loop, pointer, slot);
     const auto hand = hands_.leads(index) ? PressLimit::Hand::guessed : PressLimit::Hand::here;
+    // Farther away than it is large, it has been led into a body that the operator's hand has gone around.
+    if (hand == PressLimit::Hand::here && pointer.limit.returns() && is_free(pointer) &&
+        glm::distance(slot.hand, slot.state.position) > slot.proxy->settings().radius) {
+        slot.proxy->restart();
+    }
     if (pointer.limit.binds(hand)) {
-        draw_back(loop, pointer, slot, hand);
+        draw_back(loop, pointer, slot, hand, hands_.is_outage(index));
         pointer.passivity.went(slot.hand);
     }
 }
@@ -141,7 +150,7 @@ void TeleoperatorSide::let_go(SessionLoop& loop, Pointer& pointer, SessionLoop::
     pointer.goes = true;
     slot.hand = pointer.hand;
     slot.hand_velocity = Vec3(0.0);
-    draw_back(loop, pointer, slot, PressLimit::Hand::goes);
+    draw_back(loop, pointer, slot, PressLimit::Hand::goes, false);
     if (pointer.limit.is_gone()) {
         slot.idle = true;
         pointer.goes = false;
@@ -180,8 +189,9 @@ template PressLimit::In TeleoperatorSide::limited(const SessionLoop&, const Tool
                                                   PressLimit::Hand) const;
 
 void TeleoperatorSide::draw_back(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot,
-                                 PressLimit::Hand hand) {
+                                 PressLimit::Hand hand, bool is_outage) {
     PressLimit::In in = limited(loop, slot.state, hand);
+    in.is_outage = is_outage;
     if (!settings().traditional) {
         in.own_force = glm::length(pointer.here.force);
     }
@@ -265,9 +275,16 @@ std::optional<Pose> TeleoperatorSide::way_back(const SessionLoop& loop, const Ke
     return compose(pose, kept.proxy);
 }
 
+// With a model: at the operator. Where nothing is in its way there, nothing may be on its way here.
+bool TeleoperatorSide::is_free(const Pointer& pointer) const {
+    return !settings().traditional && pointer.here.force == Vec3(0.0);
+}
+bool TeleoperatorSide::is_free(const Tool& tool) const {
+    return !settings().traditional && tool.played.force == Vec3(0.0);
+}
+
 void TeleoperatorSide::come_back(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot) const {
-    const bool is_free = !settings().traditional && pointer.here.force == Vec3(0.0);
-    if (const std::optional<Pose> from = way_back(loop, pointer.kept, is_free)) {
+    if (const std::optional<Pose> from = way_back(loop, pointer.kept, is_free(pointer))) {
         ProxyMemory memory;
         memory.position = from->position;
         memory.present = true;

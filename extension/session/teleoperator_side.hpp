@@ -87,7 +87,8 @@ private:
     void forget_operator();
     void play(SessionLoop& loop, std::size_t index, SessionLoop::ProxySlot& slot);
     void play_hand(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot);
-    void draw_back(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot, PressLimit::Hand hand);
+    void draw_back(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot, PressLimit::Hand hand,
+                   bool is_outage);
     void draw_back_tools(SessionLoop& loop);
     void note_pressed(SessionLoop& loop);
     PressLimit::In limited(const SessionLoop& loop, const auto& state, PressLimit::Hand hand) const;
@@ -95,6 +96,8 @@ private:
     void let_go(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot);
     KeptPlace kept(const SessionLoop& loop, const auto& state, const Pose& proxy) const;
     std::optional<Pose> way_back(const SessionLoop& loop, const KeptPlace& kept, bool is_free) const;
+    bool is_free(const Pointer& pointer) const;
+    bool is_free(const Tool& tool) const;
     void come_back(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot) const;
     StandInInput stand_in_input(SessionLoop& loop, const Pointer& pointer,
                                 const SessionLoop::ProxySlot& slot) const;

@@ -35,6 +35,10 @@ void TeleoperatorSide::play(SessionLoop& loop, std::size_t index, ToolSlot& slot
             come_back(loop, tool, slot);
         }
     }
+    if (!PlayedHands::leads(slot) && tool.limit.returns() && is_free(tool) &&
+        slot.stretch(slot.state.pose) > slot.proxy.shape().reach) {
+        slot.proxy.restart();
+    }
     tool.idle = tool.goes = tool.is_new = false;
 }
 
@@ -107,6 +111,7 @@ void TeleoperatorSide::draw_back(Tool& tool, ToolSlot& slot, const ToolState& be
     in.stiffness = slot.use.settings.stiffness;
     in.force = glm::length(before.force);
     in.seconds = seconds_;
+    in.is_outage = PlayedHands::is_outage(slot);
     if (!settings().traditional) {
         in.own_force = glm::length(tool.played.force);
     }
@@ -125,8 +130,7 @@ void TeleoperatorSide::draw_back(Tool& tool, ToolSlot& slot, const ToolState& be
 }
 
 void TeleoperatorSide::come_back(SessionLoop& loop, Tool& tool, ToolSlot& slot) const {
-    const bool is_free = !settings().traditional && tool.played.force == Vec3(0.0);
-    if (const std::optional<Pose> from = way_back(loop, tool.kept, is_free)) {
+    if (const std::optional<Pose> from = way_back(loop, tool.kept, is_free(tool))) {
         ToolMemory memory;
         memory.pose = *from;
         memory.present = true;

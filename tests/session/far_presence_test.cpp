@@ -284,6 +284,99 @@ TEST(FarPresence, AToolThatIsFreedLeavesGently) {
     EXPECT_LE(leaves.largest_step, smooth_step);
 }
 
+// Its process is stopped, and goes on with all that was sent meanwhile: the hand is let go, and is not led
+// late along where the operator's was.
+TEST(FarPresence, AFarSideThatStoodStillFollowsTheHandAtOnce) {
+    for (const TeleopSettings& settings : {TeleopSettings{}, traditional(), with_deadband()}) {
+        SCOPED_TRACE(settings.traditional ? "traditional" : settings.deadband.enabled ? "deadband" : "model");
+        Pressing places(settings);
+        places.draw({0.1, 0.1, 0.0}, 1500, [&] {
+            places.now += period;
+            places.near.session.tick(places.now);
+            places.near.session.refresh();
+            places.near.session.collect();
+        });
+        const auto lag = [&] {
+            return glm::distance(places.far.session.snapshot().proxies[0].position,
+                                 places.near.devices[0].position);
+        };
+        Watch watch(places);
+        const Watched back = watch.ticks(200);
+        EXPECT_LE(back.largest_force, 5.1);
+        EXPECT_EQ(watch.force(), 0.0);
+        places.draw({-0.1, 0.1, 0.0}, 500);
+        EXPECT_LT(lag(), 0.4 * 0.1) << "the hand goes 0.4 m in a second";
+        places.ticks(100);
+        EXPECT_LT(lag(), 1e-3);
+    }
+}
+
+// While nothing gets through, the hand goes around a body: the far one neither goes through it nor presses.
+TEST(FarPresence, AnOutageWhileTheHandGoesAroundABodyTouchesNothing) {
+    for (const int outage : {100, 300, 500, 900}) {
+        for (const TeleopSettings& settings : {TeleopSettings{}, with_deadband()}) {
+            SCOPED_TRACE(std::to_string(outage) + (settings.deadband.enabled ? " ms, deadband" : " ms"));
+            LinkedPlaces places(0.05, 0.0, 1, settings, settings);
+            places.add(body(BoxShape{{0.01, 0.05, 0.5}}, Vec3(0.0), Motion::Static));
+            places.settle();
+            HeldDevice& hand = places.near.devices[0];
+            hand.position = {-0.1, 0.0, 0.0};
+            places.ticks(500);
+            Watch watch(places);
+            Watched all;
+            for (int i = 0; i <= 400; ++i) {
+                const double angle = 3.14159265358979 * i / 400.0;
+                const double speed = 3.14159265358979 / 0.4 * 0.1;
+                hand.position = {-0.1 * std::cos(angle), 0.1 * std::sin(angle), 0.0};
+                hand.velocity = i < 400 ? speed * Vec3(std::sin(angle), std::cos(angle), 0.0) : Vec3(0.0);
+                places.lose_everything(i >= 50 && i < 50 + outage);
+                all = all.and_then(watch.ticks(1));
+            }
+            for (int i = 401; i < 2400; ++i) {
+                places.lose_everything(i < 50 + outage);
+                all = all.and_then(watch.ticks(1));
+            }
+            EXPECT_EQ(all.largest_force, 0.0);
+            EXPECT_LT(glm::distance(places.far.session.snapshot().proxies[0].position, hand.position), 1e-3);
+        }
+    }
+}
+
+// Where the operator presses on the other side: what is in the way feels no more than that.
+TEST(FarPresence, AnOutageAfterWhichTheHandPressesElsewherePressesNoHarder) {
+    for (const TeleopSettings& settings : {TeleopSettings{}, with_deadband()}) {
+        SCOPED_TRACE(settings.deadband.enabled ? "deadband" : "model");
+        LinkedPlaces places(0.05, 0.0, 1, settings, settings);
+        places.add(body(BoxShape{{0.01, 0.05, 0.5}}, Vec3(0.0), Motion::Static));
+        places.settle();
+        HeldDevice& hand = places.near.devices[0];
+        hand.position = {-0.1, 0.0, 0.0};
+        places.ticks(500);
+        Watch watch(places);
+        const auto go = [&](const Vec3& to) {
+            const Vec3 from = hand.position;
+            for (int i = 1; i <= 100; ++i) {
+                hand.position = from + (to - from) * (i / 100.0);
+                hand.velocity = (to - from) * 10.0;
+                places.tick();
+            }
+            hand.velocity = Vec3(0.0);
+        };
+        places.lose_everything(true);
+        go({-0.1, 0.1, 0.0});
+        go({0.1, 0.1, 0.0});
+        go({0.1, 0.0, 0.0});
+        go({0.016, 0.0, 0.0});
+        places.ticks(100);
+        places.lose_everything(false);
+        const Watched after = watch.ticks(2000);
+        const double own = glm::length(places.near.devices[0].force);
+        EXPECT_NEAR(own, 2.0, 0.1);
+        EXPECT_LE(after.largest_force, own + 1.0);
+        EXPECT_LE(after.largest_step, smooth_step);
+    }
+}
+
 // While no hand is played no sample is answered: that asks for no longer history.
 TEST(FarPresence, NoAnswerIsLateWhileNoHandIsPlayed) {
     for (const bool at_operator : {true, false}) {

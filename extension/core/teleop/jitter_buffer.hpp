@@ -70,9 +70,11 @@ public:
         lag_.set({ratio_, settings.depth, settings.sparse, ticks(PlayoutLag::stretch_seconds)});
     }
     const BufferCounts& counts() const { return counts_; }
-    // Sparse: whether the hand was not there, as what was played last says: it is guessed, or on its way from
-    // where it was when some were missing.
-    bool leads() const { return settings_.sparse && (led_ || guesses()); }
+    // Whether the hand was not there, as what was played last says: it is on its way from where it was when
+    // some were missing, within an outage that is filled, or (sparse) guessed.
+    bool leads() const { return led_ || (settings_.sparse ? guesses() : fills_outage_); }
+    // Not of a guess: so many were missing that the operator's hand may have gone any way.
+    bool is_outage() const { return leads() && (slewing_ || !settings_.sparse); }
     // Samples between the one played last and the newest one.
     std::uint64_t depth() const {
         return ring_.newest() > played_.sequence ? ring_.newest() - played_.sequence : 0;
@@ -267,6 +269,7 @@ private:
     // A sample, or what lies between its neighbours.
     Playing move_to_head() {
         held_for_ = 0;
+        fills_outage_ = false;
         const std::uint64_t turn = sequence_at(head_);
         const double part = std::max(0.0, head_ - place(turn));
         const Sample* const here = ring_.find(turn);
@@ -287,7 +290,8 @@ private:
             return Playing::filled;
         }
         const double share = std::clamp((head_ - from) / (place(later.sequence) - from), 0.0, 1.0);
-        slewing_ = slewing_ || later.sequence - earlier.sequence > wide;
+        fills_outage_ = later.sequence - earlier.sequence > wide;
+        slewing_ = slewing_ || fills_outage_;
         played_ = later;
         played_.sequence = turn;
         played_.position = earlier.position + (later.position - earlier.position) * share;
@@ -349,7 +353,8 @@ private:
                 led_ = limit_turn(before.rotation) || led_;
             }
         }
-        if (!led_ && catching_up_ == 0.0 && held_for_ == 0) {
+        const bool is_held = held_for_ > 0 || (settings_.sparse && guessed_for_ > settings_.guess_seconds);
+        if (!led_ && catching_up_ == 0.0 && !is_held) {
             slewing_ = false;
         }
     }
@@ -392,16 +397,17 @@ private:
     bool playing_ = false;
     bool continues_ = false;  // a hand has been played before: what begins is led on from there
     std::uint64_t tick_ = 1;
-    std::uint64_t base_ = 0;    // the sequence that places count from
-    double clock_ = 0.0;        // place of a sample that would come now after no time (unit: samples)
-    double head_ = 0.0;         // place that is played
-    bool stands_ = false;       // the head has not moved in this tick
-    Sample played_{};           // at the head
-    double fraction_ = 0.0;     // of the head beyond played_.sequence
-    Sample anchor_{};           // sparse: the last one that was received and whose turn has come
-    double guessed_for_ = 0.0;  // sparse: in the last tick (unit: seconds)
-    bool led_ = false;          // by limit_speed(), in the last tick
-    Sample out_{};              // played_, led there no faster than a hand moves
+    std::uint64_t base_ = 0;     // the sequence that places count from
+    double clock_ = 0.0;         // place of a sample that would come now after no time (unit: samples)
+    double head_ = 0.0;          // place that is played
+    bool stands_ = false;        // the head has not moved in this tick
+    Sample played_{};            // at the head
+    double fraction_ = 0.0;      // of the head beyond played_.sequence
+    Sample anchor_{};            // sparse: the last one that was received and whose turn has come
+    double guessed_for_ = 0.0;   // sparse: in the last tick (unit: seconds)
+    bool led_ = false;           // by limit_speed(), in the last tick
+    bool fills_outage_ = false;  // between two samples that are far apart, in the last tick
+    Sample out_{};               // played_, led there no faster than a hand moves
 
     std::uint64_t behind_for_ = 0, held_for_ = 0;  // (unit: ticks)
     double catching_up_ = 0.0;                     // samples more in a tick; 0: it does not

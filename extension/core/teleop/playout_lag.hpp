@@ -40,6 +40,7 @@ public:
     void note(double transit) {
         open_.max = std::max(open_.max, transit);
         open_.min = std::min(open_.min, transit);
+        open_.last = transit;
     }
 
     void tick() {
@@ -48,6 +49,7 @@ public:
         }
         ticks_ = 0;
         if (open_.min <= open_.max) {
+            skip_backlog();
             stretches_[at_] = open_;
             at_ = (at_ + 1) % stretches_.size();
             count_ = std::min(count_ + 1, stretches_.size());
@@ -62,11 +64,21 @@ private:
     struct Stretch {
         double max = -std::numeric_limits<double>::infinity();
         double min = std::numeric_limits<double>::infinity();
+        double last = 0.0;
     };
     static constexpr std::size_t max_kept = 40;
     static constexpr std::size_t left_out = 20;  // one in so many
     static constexpr std::size_t least_to_choose = 4;
     static constexpr int calm = 10;  // stretches that need less before less is kept
+
+    // A playout that begins while this side works off what was sent during a standstill of it would stay as
+    // late as the oldest of that.
+    void skip_backlog() {
+        const double long_ago = 2.0 * static_cast<double>(settings_.stretch) * settings_.ratio;
+        if (count_ == 0 && open_.max - open_.last > long_ago) {
+            wanted_ = open_.max = open_.last;
+        }
+    }
 
     void weigh() {
         const double needed = this->needed();
