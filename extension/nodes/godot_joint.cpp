@@ -160,8 +160,8 @@ JointReading GodotJoint::read() const {
 
 std::string GodotJoint::problem() const {
     std::string problem = problem_of_paths(node_);
-    const bool is_whole = !node_.get_node_a().is_empty() && !node_.get_node_b().is_empty();
-    return problem.empty() && is_whole ? problem_of_ends(node_) : problem;
+    const bool is_empty = node_.get_node_a().is_empty() && node_.get_node_b().is_empty();
+    return problem.empty() && !is_empty ? problem_of_ends(node_) : problem;
 }
 
 SceneJoint::End GodotJoint::end_of(const NodePath& path) const {

@@ -36,12 +36,12 @@ void JointMirror::synchronise(Session& session, const FindMirror& mirror_of) {
     } else {
         twin_.synchronise(session, reading.joint, *first, *second);
     }
-    // A game that empties a joint, or frees what it held, makes no mistake.
-    const bool has_joined = twin_.revision() > 0;
+    // A game that empties a joint, or frees what it held, makes no mistake: after it has joined once.
+    const bool is_as_begun = twin_.revision() == 0 || (twin_.revision() == 1 && twin_.handle() != no_handle);
     problem_ = !twin_.problem().empty()   ? twin_.problem()
                : !reading.problem.empty() ? reading.problem
-               : has_joined               ? std::string()
-                                          : joint_->problem();
+               : is_as_begun              ? joint_->problem()
+                                          : std::string();
     joint_->say(problem_);
 }
 

@@ -33,7 +33,7 @@ public:
     virtual JointReading read() const = 0;
     virtual End first() const = 0;
     virtual End second() const = 0;
-    // Why it joins nothing yet, where that is a mistake: an end that a script has still to name is none.
+    // Why it joins nothing yet, where that is a mistake: that a script has still to name its ends is none.
     virtual std::string problem() const = 0;
     virtual void say(const std::string& problem) const = 0;  // once for each; an empty one says nothing
 };

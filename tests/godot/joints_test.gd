@@ -209,6 +209,7 @@ func test_a_game_that_empties_a_joint_is_told_nothing() -> void:
 	var world := add_world()
 	var a := _block(world, "A", Vector3.ZERO)
 	_block(world, "B", Vector3(0.5, 0, 0))
+	add_floor(world).position.y = -2.0
 	var joint := PinJoint3D.new()
 	joint.exclude_nodes_from_collision = false  # Godot leaves its exceptions behind
 	_joined(world, joint, "", "")
@@ -220,6 +221,11 @@ func test_a_game_that_empties_a_joint_is_told_nothing() -> void:
 	joint.node_a = NodePath()
 	_check_quiet(world)
 	joint.node_b = NodePath()
+	_check_quiet(world)
+	joint.node_a = NodePath("../A")
+	_check_quiet(world)
+	joint.node_a = NodePath()
+	joint.node_b = NodePath("../Floor")
 	_check_quiet(world)
 	joint.node_a = NodePath("../A")
 	_check_quiet(world)
