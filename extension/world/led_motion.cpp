@@ -14,6 +14,10 @@ namespace {
 constexpr double least_pull = 0.05;
 constexpr double least_spin_up = 0.5;
 
+// An engine that is late makes up for so many frames, and loses the rest of the time (Godot, unless
+// Engine.max_physics_steps_per_frame is another number).
+constexpr double most_frames_at_once = 8.0;
+
 // What both say, axis by axis: the smaller one where the signs agree, else nothing.
 Vec3 agreed(const Vec3& a, const Vec3& b, double least) {
     Vec3 both(0.0);
@@ -94,8 +98,12 @@ LedMotion::Frame LedMotion::frame(const BodyMotion& engines, const LedState& mod
                                   double tick) {
     const BodyMotion truth = without_lead(engines, 0.5 * std::max(0.0, seconds - tick));
     Frame frame;
-    frame.impulse = model.impulse - std::exchange(given_, model.impulse);
-    frame.turn = model.turn - std::exchange(given_turn_, model.turn);
+    // What hands did in the time that the engine loses is lost with it: else a body flies away that was
+    // pressed against friction meanwhile.
+    const double kept =
+        std::min(1.0, most_frames_at_once * seconds / std::max(seconds, model.seconds - before_.seconds));
+    frame.impulse = kept * (model.impulse - std::exchange(given_, model.impulse));
+    frame.turn = kept * (model.turn - std::exchange(given_turn_, model.turn));
     BodyCorrection& correction = frame.correction;
     if (std::exchange(is_known_, true)) {
         const BodyMotion model_then = expected();
