@@ -1,6 +1,7 @@
 #include "nodes/haptic_world.hpp"
 
 #include <algorithm>
+#include <godot_cpp/classes/engine.hpp>
 #include <godot_cpp/classes/project_settings.hpp>
 #include <godot_cpp/classes/scene_tree.hpp>
 #include <godot_cpp/core/error_macros.hpp>
@@ -341,10 +342,10 @@ void HapticWorld::_notification(int what) {
             stop();
             break;
         case NOTIFICATION_INTERNAL_PROCESS:
-            process(get_process_delta_time());
+            process(frame_seconds());
             break;
         case NOTIFICATION_INTERNAL_PHYSICS_PROCESS:
-            physics_process(get_physics_process_delta_time());
+            physics_process();
             break;
         case NOTIFICATION_PAUSED:
             if (run_ != nullptr) {
@@ -395,6 +396,12 @@ void HapticWorld::finish_recording(HapticRecorder& recorder) {
 
 // --- time
 
+// Since the last frame, by the clock: Engine.time_scale changes the game's time alone.
+double HapticWorld::frame_seconds() const {
+    const double scale = Engine::get_singleton()->get_time_scale();
+    return scale > 0.0 ? get_process_delta_time() / scale : 0.0;
+}
+
 // Scripts that are called on the way, when bodies move, may stop the world: the run stays until its work is
 // done.
 void HapticWorld::process(double seconds) {
@@ -417,12 +424,12 @@ void HapticWorld::process(double seconds) {
 }
 
 // Before Godot's first step: it would find bodies that the world holds and then leaves to it.
-void HapticWorld::physics_process(double seconds) {
+void HapticWorld::physics_process() {
     if (run_ != nullptr && !run_->engine_moves() && !run_->is_busy()) {
         catch_up();
     }
-    if (run_ != nullptr && run_->engine_moves() && !run_->is_over() && seconds > 0.0) {
-        run_->exchange(seconds);
+    if (run_ != nullptr && run_->engine_moves() && !run_->is_over()) {
+        run_->exchange();
     }
 }
 

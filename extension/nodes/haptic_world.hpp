@@ -141,8 +141,9 @@ private:
     TickLoopSettings loop_settings() const;
     bool is_urgent() const;
     // In every frame. No virtual method: a script's _process() would take its place.
+    double frame_seconds() const;
     void process(double seconds);
-    void physics_process(double seconds);
+    void physics_process();
     void node_added(const godot::Variant& node);
     void node_removed(const godot::Variant& node);
     void report_status(double seconds);

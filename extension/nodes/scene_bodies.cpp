@@ -97,10 +97,10 @@ void SceneBodies::synchronise(MirrorContext context) {
 }
 
 // A body counts that is within arm's length of a hand, or next to a local model, which may lie on it.
-void SceneBodies::exchange(Session& session, std::span<const Vec3> hands, double seconds, double tick) {
+void SceneBodies::exchange(PhysicsFrame frame) {
     constexpr double close = 0.5, farthest = 5.0;  // (unit: meters)
     const std::span<const CloseShape> shapes =
-        close_.around(scene_.world, hands, std::min(farthest, close + 2.0 * mirrors_.widest_led()));
+        close_.around(scene_.world, frame.hands, std::min(farthest, close + 2.0 * mirrors_.widest_led()));
     if (close_.is_full()) {
         scene_.complaints.say(scene_.world,
                               "there are so many shapes about a hand that those farther from it are left "
@@ -115,8 +115,9 @@ void SceneBodies::exchange(Session& session, std::span<const Vec3> hands, double
             others.push_back(shape);
         }
     }
-    mirrors_.exchange({session, hands, bodies, seconds, tick});
-    server_bodies_.exchange(others, {session, hands, {}, seconds, tick});
+    frame.close = bodies;
+    mirrors_.exchange(frame);
+    server_bodies_.exchange(others, frame);
 }
 
 std::uint64_t SceneBodies::node_of(SessionHandle body) const {

@@ -34,9 +34,8 @@ public:
 
     // Brings the session up to date with all that stands below the world.
     void synchronise(MirrorContext context);
-    // Godot's own physics moves the bodies and is about to step; `hands`, `seconds`, `tick`: see
-    // PhysicsFrame.
-    void exchange(Session& session, std::span<const Vec3> hands, double seconds, double tick);
+    // Godot's own physics moves the bodies and is about to step; what is close to hands is found here.
+    void exchange(PhysicsFrame frame);
 
     BodyMirrors& mirrors() { return mirrors_; }
     const BodyMirrors& mirrors() const { return mirrors_; }

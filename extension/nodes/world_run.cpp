@@ -185,7 +185,7 @@ void WorldRun::synchronise_bodies(double seconds) {
     context.together = loop().is_real_time();
     context.engine_moves = engine_moves_;
     if (engine_moves_) {  // it moves them no more often
-        context.seconds = std::max(seconds, world_.get_physics_process_delta_time());
+        context.seconds = std::max(seconds, frame_seconds());
     }
     bodies_.synchronise(context);
     waited_ += context.ticks || trees_building() == 0 ? 0.0 : seconds;
@@ -325,7 +325,18 @@ void WorldRun::show() {
     }
 }
 
-void WorldRun::exchange(double seconds) {
+// Engine.time_scale changes how far a step goes and not how often it comes. A script that advances a world
+// gives it the game's time.
+double WorldRun::frame_seconds() const {
+    return loop().is_real_time() ? 1.0 / Engine::get_singleton()->get_physics_ticks_per_second()
+                                 : world_.get_physics_process_delta_time();
+}
+
+void WorldRun::exchange() {
+    const double seconds = frame_seconds();
+    if (seconds <= 0.0) {
+        return;
+    }
     is_fresh_ |= session().refresh();
     const SessionSnapshot& snapshot = session().snapshot();
     hand_places_.clear();
@@ -335,7 +346,8 @@ void WorldRun::exchange(double seconds) {
     for (const ToolState& tool : std::span(snapshot.tools).first(snapshot.tool_count)) {
         hand_places_.push_back(tool.pose.position);
     }
-    bodies_.exchange(session(), hand_places_, seconds, world_.tick_seconds());
+    const bool keeps_time = !loop().is_real_time() || Engine::get_singleton()->get_time_scale() == 1.0;
+    bodies_.exchange({session(), hand_places_, {}, seconds, world_.tick_seconds(), keeps_time});
 }
 
 // A script that is called as a body moves may end all this.
@@ -431,12 +443,13 @@ std::optional<FieldMoment> WorldRun::ask_effects(const std::vector<std::uint64_t
 
 // Devices and hands have the time of the clock.
 std::string WorldRun::problem_of_time() const {
-    const bool differs = loop().is_real_time() && Engine::get_singleton()->get_time_scale() != 1.0;
-    return differs ? "'Engine.time_scale' is not 1, and a HapticWorld in real time keeps to the clock: what "
-                     "scripts move and what it moves disagree; leave it at 1, or set the world's clock to "
-                     "CLOCK_STEPPED "
-                     "and advance it"
-                   : "";
+    if (!loop().is_real_time() || Engine::get_singleton()->get_time_scale() == 1.0) {
+        return {};
+    }
+    const std::string so = engine_moves_ ? "hands feel its bodies and push none"
+                                         : "what scripts move and what it moves disagree";
+    return "'Engine.time_scale' is not 1, and a HapticWorld in real time keeps to the clock: " + so +
+           "; leave it at 1, or set the world's clock to CLOCK_STEPPED and advance it";
 }
 
 namespace {

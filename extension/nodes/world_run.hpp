@@ -55,8 +55,8 @@ public:
 
     // Passes on what changed in the scene tree; `seconds`: since the last call.
     void synchronise(double seconds);
-    // Godot's own physics moves the bodies and is about to step, by `seconds`.
-    void exchange(double seconds);
+    // Godot's own physics moves the bodies and is about to step.
+    void exchange();
     // Shows in the scene tree what the loop has done.
     void show();
     // Lets scripts say what forces are on the hands. Last: they may do anything, and end all this.
@@ -99,6 +99,7 @@ private:
     SceneView& view() { return model_ != nullptr ? static_cast<SceneView&>(*model_) : bodies_; }
     std::string problem_of_time() const;
     void synchronise_bodies(double seconds);
+    double frame_seconds() const;  // from one step of Godot's own physics to the next, by the loop's clock
     void look_at_scene();
     void compare_model();
     void synchronise_recorders();

@@ -329,8 +329,9 @@ bool BodyMirror::exchange(const PhysicsFrame& frame, bool may_be_led) {
     const CollisionLayers& in_session = twin_.values().layers;
     const bool is_looked_at =  // since it came close
         in_session.layer == layers_.layer && in_session.mask == layers_.mask;
-    const bool is_near = may_be_led && is_looked_at && is_moved_by_engine_ && place_problem_.empty() &&
-                         std::ranges::any_of(frame.hands, [&](const Vec3& hand) {
+    // In slow motion a body would answer a push as a much heavier one: hands then feel it and push it not.
+    const bool is_near = may_be_led && frame.keeps_time && is_looked_at && is_moved_by_engine_ &&
+                         place_problem_.empty() && std::ranges::any_of(frame.hands, [&](const Vec3& hand) {
                              return glm::distance(hand, twin_.pose().position) < within;
                          });
     if (is_near != is_near_) {

@@ -34,6 +34,7 @@ struct PhysicsFrame {
     std::span<const std::uint64_t> close;  // ids of the bodies that are close to one of them
     double seconds = 0.0;                  // of a frame, > 0
     double tick = 0.0;                     // seconds of one of the session's ticks, > 0
+    bool keeps_time = true;  // false: the engine's time goes at another rate than the session's, or stands
 };
 
 class BodyMirror {

@@ -118,6 +118,28 @@ func test_a_game_that_changes_its_time() -> void:
 	check_near(block.position.y, 0.05, 0.01, "height")
 
 
+## In real time a hand goes on as fast: it feels what is slow, and throws it not.
+func test_slow_motion_throws_no_body() -> void:
+	var world := _world()
+	world.clock = HapticWorld.CLOCK_REAL_TIME
+	add_floor(world)
+	var block := _block(world, Vector3(0, 0.05, 0))
+	var way := path(Vector3(-0.1, 0.05, 0), Vector3(0.1, 0.05, 0), 2.0)
+	var proxy := add_hand(world, way)
+	(world.get_node("Device") as HapticDevice).driver = HapticDevice.DRIVER_SIMULATED_ARM
+	expect_error("hands feel its bodies and push none")
+	var fastest := 0.0
+	var touched := false
+	Engine.time_scale = 0.1
+	for _i in 180:
+		await get_tree().physics_frame
+		fastest = maxf(fastest, block.linear_velocity.length())
+		touched = touched or proxy.is_touching()
+	check(touched, "the hand feels nothing")
+	check(fastest < 0.05, "the block goes with %s m/s" % fastest)
+	check_near(block.position, Vector3(0, 0.05, 0), 0.005, "place of the block")
+
+
 ## The tree is paused while the hand presses: nothing is kept up for the body.
 func test_a_pause_saves_up_no_impulse() -> void:
 	for mode: ProcessMode in [PROCESS_MODE_PAUSABLE, PROCESS_MODE_ALWAYS]:

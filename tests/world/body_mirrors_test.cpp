@@ -78,8 +78,7 @@ struct Scene {
     }
     // With a step of the engine's own physics, for which these bodies are close to a hand.
     void engine_frame(const std::vector<std::uint64_t>& close) {
-        const Vec3 hand(100.0);
-        mirrors.exchange({session, {&hand, 1}, close, 0.01, 0.001});
+        mirrors.exchange({session, {&hand, 1}, close, 0.01, 0.001, keeps_time});
         frame();
     }
     void frames(int count) {
@@ -94,7 +93,8 @@ struct Scene {
     BodyMirrors mirrors;
     Session session;
     std::uint64_t ticks = 0, mesh_changes = 0;
-    bool has_changed = true, together = false, engine_moves = false;
+    bool has_changed = true, together = false, engine_moves = false, keeps_time = true;
+    Vec3 hand{100.0};
 };
 
 TEST(BodiesThatAnEngineMoves, AreNeitherReadNorThereFarFromHands) {
@@ -126,6 +126,22 @@ TEST(BodiesThatAnEngineMoves, AreNeitherReadNorThereFarFromHands) {
         }
         EXPECT_TRUE(mirror.is_far());
         EXPECT_EQ(mirror.twin().values().layers.layer, 0u);
+    }
+}
+
+TEST(BodiesThatAnEngineMoves, ArePushedOnlyWhileItKeepsTime) {
+    Scene scene;
+    scene.engine_moves = true;
+    scene.hand = {0.15, 0.0, 0.0};
+    Prop& prop = scene.add();
+    for (const bool keeps_time : {true, false, true}) {
+        scene.keeps_time = keeps_time;
+        for (int i = 0; i < 5; ++i) {
+            scene.engine_frame({prop.id});
+        }
+        const BodyMirror& mirror = *scene.mirrors.bodies()[0];
+        EXPECT_EQ(mirror.is_led(), keeps_time);
+        EXPECT_EQ(mirror.twin().values().motion, keeps_time ? Motion::Dynamic : Motion::Kinematic);
     }
 }
 
