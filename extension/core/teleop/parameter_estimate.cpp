@@ -6,15 +6,30 @@
 
 namespace tactus {
 
+namespace {
+
+// What factors of `largest` at most, or its inverse, can add to what a hand and contacts do, along it.
+double most_gained(double hand, double contacts, double largest) {
+    const auto gained = [largest](double acceleration) {
+        return acceleration > 0.0 ? acceleration * (largest - 1.0) : -acceleration * (1.0 - 1.0 / largest);
+    };
+    return gained(hand) + gained(contacts);
+}
+
+}  // namespace
+
 void ParameterEstimate::forget(const EstimateSettings& settings) {
     p_ = q_ = pq_ = 0.0;
+    moved_by_hand_ = false;
     pp_ = qq_ = settings.uncertainty * settings.uncertainty;
 }
 
 void ParameterEstimate::learn(const EstimateSettings& settings, const MotionLesson& lesson) {
     const Vec3 mean = 0.5 * (lesson.truth_before + lesson.truth);
     const double speed = glm::length(mean);
-    if (!(speed > settings.slow) || !(glm::length(lesson.model) > settings.slow) || !(lesson.seconds > 0.0)) {
+    moved_by_hand_ = lesson.pushed != Vec3(0.0) || (moved_by_hand_ && speed > settings.slow);
+    if (!moved_by_hand_ || !(speed > settings.slow) || !(glm::length(lesson.model) > settings.slow) ||
+        !(lesson.seconds > 0.0)) {
         return;
     }
     const Vec3 d = mean / speed;
@@ -29,6 +44,10 @@ void ParameterEstimate::learn(const EstimateSettings& settings, const MotionLess
     pp_ = std::min(pp_ + wander, most);
     qq_ = std::min(qq_ + wander, most);
     const double doubt = settings.doubt + settings.relative_doubt * (std::abs(h) + std::abs(c));
+    if (std::max(missing - most_gained(h, c, settings.largest),
+                 -missing - most_gained(-h, -c, settings.largest)) > doubt) {
+        return;
+    }
     const double a = pp_ * h + pq_ * c;
     const double b = pq_ * h + qq_ * c;
     const double variance = a * h + b * c + doubt * doubt;

@@ -9,8 +9,11 @@
 //     (dv - dv').d / T = h p + c q
 //
 // more, to first order: a contact's share of the acceleration is friction times gravity, whatever the mass.
-// p and q follow from many such lines by recursive least squares. Both stay positive: whatever is learnt,
-// contacts only take energy away.
+// p and q follow from many such lines by recursive least squares. Both factors stay positive: whatever is
+// learnt, contacts only take energy away.
+//
+// What else acts on the body looks like another friction. So a line that no factors within their bounds
+// explain is left out, and so is what a body does that no hand of ours has pushed since it last stood still.
 #pragma once
 
 #include "core/math/types.hpp"
@@ -56,6 +59,7 @@ public:
 private:
     double p_ = 0.0, q_ = 0.0;               // logarithms of the inverse mass's and the friction's factor
     double pp_ = 0.0, pq_ = 0.0, qq_ = 0.0;  // their covariance
+    bool moved_by_hand_ = false;             // since it stood still
 };
 
 }  // namespace tactus

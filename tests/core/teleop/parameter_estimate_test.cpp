@@ -71,6 +71,42 @@ TEST(ParameterEstimate, WhatRestsTeachesNothing) {
     EXPECT_TRUE(estimate.is_none());
 }
 
+// A block that slides on by itself, of more friction than believed.
+TEST(ParameterEstimate, AFreeSlideIdentifiesFrictionWhereTheHandHasBegunIt) {
+    const EstimateSettings settings;
+    const Block truth{0.3, 0.7};
+    const Block believed{0.3, 0.5};
+    ParameterEstimate estimate(settings);
+    for (int i = 0; i < 100; ++i) {
+        estimate.learn(settings, lesson(truth, believed, estimate, 0.0));
+    }
+    EXPECT_TRUE(estimate.is_none()) << "something else has moved it, and may be at it still";
+    estimate.learn(settings, lesson(believed, believed, estimate, 1.5));
+    for (int i = 0; i < 100; ++i) {
+        estimate.learn(settings, lesson(truth, believed, estimate, 0.0));
+    }
+    EXPECT_NEAR(estimate.friction_factor(), 1.4, 0.05);
+}
+
+// What acts besides, along the motion or against it (unit: newtons), is neither friction nor mass where none
+// of that could make so much of a difference.
+TEST(ParameterEstimate, WhatNoFactorsExplainIsLeftOut) {
+    const EstimateSettings settings;
+    const Block truth{0.3, 0.5};
+    for (const double push : {0.0, 1.5}) {
+        for (const double other : {8.0, -14.0}) {
+            ParameterEstimate estimate(settings);
+            estimate.learn(settings, lesson(truth, truth, estimate, 1.5));
+            for (int i = 0; i < 100; ++i) {
+                MotionLesson drawn = lesson(truth, truth, estimate, push);
+                drawn.truth.x += other / truth.mass * seconds;
+                estimate.learn(settings, drawn);
+            }
+            EXPECT_TRUE(estimate.is_none()) << push << ", " << other;
+        }
+    }
+}
+
 TEST(ParameterEstimate, NoLessonLeadsBeyondTheBoundOrToNonsense) {
     const EstimateSettings settings;
     ParameterEstimate estimate(settings);
