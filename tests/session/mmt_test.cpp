@@ -159,18 +159,18 @@ TEST(Mmt, CorrectionsBringTheBoxBackUnderLoss) {
     EXPECT_LT(figures.at("box_position_error_final_mm"), 0.1);
 }
 
-TEST(Mmt, HalfOfAllPacketsLostCostAboutThreeTimesTheForceError) {
+TEST(Mmt, HalfOfAllPacketsLostLeaveLittleForceError) {
     TeleopCase one = wrong_box(100.0);
-    const double without = run_teleop(scene(true), one).at("force_error_mean_N");
     one.forth.loss = one.back.loss = 0.5;
     double mean = 0.0;
-    // Over 60 seeds 3.06 times (0.063 N and 0.021 N). Fifteen scatter by some 0.3, and twice that is allowed.
+    // 0.063 N over 60 seeds, and 0.021 N where nothing is lost. Fifteen scatter by some 0.006 N, and twice
+    // that is allowed.
     constexpr int seeds = 15;
     for (int seed = 1; seed <= seeds; ++seed) {
         one.seed = static_cast<std::uint64_t>(7 * seed);
         mean += run_teleop(scene(true), one).at("force_error_mean_N") / seeds;
     }
-    EXPECT_LT(mean, 3.7 * without);
+    EXPECT_LT(mean, 0.075);
 }
 
 TEST(Mmt, AStillModelThatIsWrongIsRightSoonAfterTheFirstTouch) {
