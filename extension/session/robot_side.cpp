@@ -4,6 +4,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "core/math/shortened.hpp"
 #include "network/plausibility.hpp"
 #include "session/hand_terms.hpp"
 
@@ -111,6 +112,7 @@ void RobotSide::play(SessionLoop& loop, std::size_t index, const SessionLoop::Pr
     const RobotBody body = body_of(robot.capabilities);
     if (!pointer.holds) {
         pointer.holds = true;
+        pointer.returns = false;
         pointer.target = slot.hand;
         pointer.passivity.reset();
         pointer.observer.reset();
@@ -126,9 +128,25 @@ void RobotSide::play(SessionLoop& loop, std::size_t index, const SessionLoop::Pr
     const double speed = follow_speed(glm::length(pointer.played.velocity), settings().stand_in.speed);
     pointer.target = next_target(before, hand_of(pointer, slot, robot, coupling), speed,
                                  robot.workspace.pose.position, robot.capabilities.radius * scale, seconds_);
+    const double left = glm::distance(to_parent(settings().frame, pointer.played.position), slot.hand);
+    pointer.returns = hands_.is_outage(index) || (pointer.returns && left > slot.description.settings.radius);
+    if (pointer.returns) {
+        pointer.target = yielding(pointer.target, slot.hand, glm::length(pointer.played.force),
+                                  glm::length(friction_of(body, slot.hand_velocity / scale)), coupling);
+    }
     pointer.passivity.went(pointer.target);
     pointer.velocity = (pointer.target - before) / seconds_;
     pointer.coupling = coupling;
+}
+
+// After an outage the operator's hand may have gone around what the robot runs into on its straight way. A
+// robot cannot begin elsewhere: with a model it is led by no more than the operator is pressed with, besides
+// its own friction, until it is there.
+Vec3 RobotSide::yielding(const Vec3& target, const Vec3& place, double own_force, double friction,
+                         const Wall& coupling) const {
+    return settings().traditional
+               ? target
+               : place + shortened(target - place, (own_force + friction + unseen) / coupling.stiffness);
 }
 
 // Where the operator's stand-in would have the robot.

@@ -37,13 +37,14 @@ private:
         Playing playing = Playing::waiting;
         FarPassivity passivity;
         ContactObserver observer;
-        bool holds = false;  // an operator's hand is there and the robot answers
-        Vec3 target{0.0};    // in this side's scene (unit: meters)
-        Vec3 velocity{0.0};  // of the target (unit: meters per second)
-        Wall coupling;       // of the robot to the target
-        Vec3 contact{0.0};   // on the robot, in this side's scene (unit: newtons)
-        Vec3 coupled{0.0};   // by the coupling, on the target, one tick ago (unit: newtons)
-        Vec3 had_hand{0.0};  // one tick ago (unit: meters)
+        bool holds = false;    // an operator's hand is there and the robot answers
+        bool returns = false;  // from an outage: see yielding()
+        Vec3 target{0.0};      // in this side's scene (unit: meters)
+        Vec3 velocity{0.0};    // of the target (unit: meters per second)
+        Wall coupling;         // of the robot to the target
+        Vec3 contact{0.0};     // on the robot, in this side's scene (unit: newtons)
+        Vec3 coupled{0.0};     // by the coupling, on the target, one tick ago (unit: newtons)
+        Vec3 had_hand{0.0};    // one tick ago (unit: meters)
         Vec3 force_sent{0.0};
         Nanoseconds force_sent_at = 0;
     };
@@ -60,15 +61,16 @@ private:
         OperatorSample played;
         ContactObserver observer, twist_observer;
         Wrist wrist = Wrist::unknown;
-        bool holds = false;   // an operator's hand is there and the robot answers
-        Pose wanted;          // where the hand would have the tool, in this side's scene
-        Pose target;          // of the handle, likewise
-        Vec3 velocity{0.0};   // of the target (unit: meters per second)
-        Vec3 spin{0.0};       // (unit: radians per second)
-        Wall coupling;        // of the handle to the target
-        Wall turning;         // likewise (units: newton meters, and their seconds, per radian)
-        Wrench contact;       // on the tool, about its origin, in this side's scene
-        Vec3 had_place{0.0};  // of the handle, one tick ago (unit: meters)
+        bool holds = false;    // an operator's hand is there and the robot answers
+        bool returns = false;  // from an outage: see yielding()
+        Pose wanted;           // where the hand would have the tool, in this side's scene
+        Pose target;           // of the handle, likewise
+        Vec3 velocity{0.0};    // of the target (unit: meters per second)
+        Vec3 spin{0.0};        // (unit: radians per second)
+        Wall coupling;         // of the handle to the target
+        Wall turning;          // likewise (units: newton meters, and their seconds, per radian)
+        Wrench contact;        // on the tool, about its origin, in this side's scene
+        Vec3 had_place{0.0};   // of the handle, one tick ago (unit: meters)
         SaidWrench said;
     };
 
@@ -77,6 +79,8 @@ private:
     void release_hands(SessionLoop& loop);
     static RobotBody body_of(const DeviceCapabilities& robot);
     Wall coupling_of(const RobotView& robot) const;
+    Vec3 yielding(const Vec3& target, const Vec3& place, double own_force, double friction,
+                  const Wall& coupling) const;
     void play(SessionLoop& loop, std::size_t index, const SessionLoop::ProxySlot& slot);
     Vec3 hand_of(Pointer& pointer, const SessionLoop::ProxySlot& slot, const RobotView& robot,
                  const Wall& coupling) const;

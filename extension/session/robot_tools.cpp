@@ -46,12 +46,15 @@ void RobotSide::play(SessionLoop& loop, std::size_t index, ToolSlot& slot) {
     if (!std::exchange(tool.holds, true)) {
         tool.target = {slot.hand.place, handle_of(slot)};
         tool.had_place = slot.hand.place;
+        tool.returns = false;
         tool.observer.reset();
         tool.twist_observer.reset();
     }
     feel(loop, tool, slot, robot);
     statistics_.sample = std::max(statistics_.sample, tool.played.sequence);
     tool.wanted = compose(settings().frame, Pose{tool.played.position, tool.played.rotation});
+    const double left = glm::distance(tool.wanted.position, slot.hand.goal.position);
+    tool.returns = hands_.is_outage(slot) || (tool.returns && left > slot.proxy.shape().reach);
     lead(tool, slot, robot);
 }
 
@@ -93,6 +96,12 @@ void RobotSide::lead(Tool& tool, const ToolSlot& slot, const RobotView& robot) c
     tool.target.position =
         next_target(before.position, tool.wanted.position - tool.target.rotation * grasp.position, speed,
                     robot.workspace.pose.position, robot.capabilities.radius * scale, seconds_);
+    if (tool.returns) {
+        const Vec3 velocity = slot.hand.velocity_at(slot.hand.place) / scale;
+        tool.target.position =
+            yielding(tool.target.position, slot.hand.place, glm::length(tool.played.force),
+                     glm::length(friction_of(body_of(robot.capabilities), velocity)), tool.coupling);
+    }
     tool.velocity = (tool.target.position - before.position) / seconds_;
     tool.spin = turn_vector(tool.target.rotation * glm::conjugate(before.rotation)) / seconds_;
 }

@@ -56,5 +56,19 @@ TEST(LossyHands, AHandThatComesBackInsideABodyPressesNothing) {
     }
 }
 
+// The far hand is led straight on, into the post. A robot cannot begin elsewhere: its mass comes to a stop
+// there, and what is left is what its friction is not known by.
+TEST(LossyHands, AHandThatGoesAroundABodyDuringAnOutagePressesNothing) {
+    for (const LossyHand hand : {LossyHand::fingertip, LossyHand::tool, LossyHand::robot}) {
+        for (const double outage : {0.1, 0.3, 0.5, 0.9}) {
+            SCOPED_TRACE(std::to_string(static_cast<int>(hand)) + ", " + std::to_string(outage));
+            const AroundFigures figures = run_around(hand, outage);
+            EXPECT_EQ(figures.own_force, 0.0);
+            EXPECT_LT(figures.far_force, hand == LossyHand::robot ? 2.5 : 0.1);
+            EXPECT_LT(figures.lasting, hand == LossyHand::robot ? 0.61 : 0.1);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace tactus::lossy_hands_test

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <memory>
+#include <numbers>
 #include <utility>
 
 #include "core/tool/tool_shape.hpp"
@@ -32,6 +33,14 @@ BodyAddition plate() {
     made.description.pose.position = {0.0, -0.005, 0.0};
     made.description.motion = Motion::Static;
     made.touch_material = {500.0, 0.0, 0.5, 0.4};
+    return made;
+}
+
+// What a hand goes around: above it, from the one side to the other.
+BodyAddition post() {
+    BodyAddition made = plate();
+    made.description.shapes = {PlacedShape{BoxShape{{0.004, 0.01, 0.02}}, Pose{}}};
+    made.description.pose.position = {0.0, 0.045, 0.0};
     return made;
 }
 
@@ -65,8 +74,9 @@ Reach motion_of(LossyHand hand) {
 
 class LossyRun {
 public:
-    LossyRun(const LossyCase& one, std::uint64_t seed)
+    LossyRun(const LossyCase& one, std::uint64_t seed, BodyAddition obstacle = plate())
         : one_(one),
+          obstacle_(std::move(obstacle)),
           random_(seed),
           at_far_(wire_.second(), one.conditions, luck_of(seed, Way::to_teleoperator)),
           at_near_(wire_.first(), one.conditions, luck_of(seed, Way::to_operator)) {
@@ -139,6 +149,25 @@ public:
         return figures;
     }
 
+    AroundFigures run_around() {
+        constexpr double wide = 0.03, pi = std::numbers::pi;
+        constexpr int way = 600, start = 50;  // (unit: ticks)
+        AroundFigures figures;
+        outage_from_ = settled + start;
+        outage_to_ = outage_from_ + static_cast<int>(1e3 * one_.outage);
+        for (int i = -settled; i < way + 3000; ++i) {
+            const double angle = pi * std::clamp(i, 0, way) / way;
+            const Vec3 before = device_.position;
+            device_.position = {-wide * std::cos(angle), 0.045 + wide * std::sin(angle), 0.0};
+            device_.velocity = i > 0 ? (device_.position - before) * 1e3 : Vec3(0.0);
+            tick();
+            figures.far_force = std::max(figures.far_force, i > 0 ? far_force() : 0.0);
+            figures.lasting = i < way + 2000 ? 0.0 : std::max(figures.lasting, far_force());
+            figures.own_force = std::max(figures.own_force, glm::length(device_.force));
+        }
+        return figures;
+    }
+
 private:
     void begin(Session& session, Side side, std::uint64_t epoch, Link& link,
                const std::shared_ptr<TeleopPort>& port) const {
@@ -149,7 +178,7 @@ private:
                           : settings.robot            ? SidePlan::Kind::robot
                                                       : SidePlan::Kind::environment;
         session.attach({{{kind, settings, end, OperatorRoom{}, {}}, &link, port}});
-        const SessionHandle handle = session.add_body(plate()).handle;
+        const SessionHandle handle = session.add_body(obstacle_).handle;
         port->bindings.try_push({handle, handle});
     }
     void add_hand(Session& session, Device& device) {
@@ -169,7 +198,7 @@ private:
         reach.pose.position = {0.0, 0.045, 0.0};
         tip_ = std::make_unique<TipDevice>(exchange_);
         place_ = std::make_unique<Session>(room());
-        place_->add_body(plate());
+        place_->add_body(obstacle_);
         ProxyDescription pointer;
         pointer.settings.radius = radius;
         pointer.device = place_->add_device(*tip_, reach).handle;
@@ -239,6 +268,7 @@ private:
     }
 
     LossyCase one_;
+    BodyAddition obstacle_;
     RandomValues random_;
     MemoryLinkPair wire_{8192};
     LinkEmulator at_far_, at_near_;
@@ -301,6 +331,12 @@ AbsentFigures run_absent(LossyHand hand, Absence absence) {
     one.conditions.delay = from_seconds(0.025);
     one.presses = true;
     return LossyRun(one, 1).run_absent(absence);
+}
+
+AroundFigures run_around(LossyHand hand, double outage) {
+    LossyCase one{"around", hand, {}, outage, false};
+    one.conditions.delay = 25'000'000;
+    return LossyRun(one, 1, post()).run_around();
 }
 
 }  // namespace tactus::shared

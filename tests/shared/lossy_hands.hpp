@@ -46,4 +46,13 @@ struct AbsentFigures {
 };
 AbsentFigures run_absent(LossyHand hand, Absence absence);
 
+// The operator's hand goes around a post, touching nothing, while nothing gets through for a time (unit:
+// seconds).
+struct AroundFigures {
+    double far_force = 0.0;  // the most (unit: newtons)
+    double lasting = 0.0;    // in the last second of the three after it (unit: newtons)
+    double own_force = 0.0;  // of the operator's hand, the most (unit: newtons)
+};
+AroundFigures run_around(LossyHand hand, double outage);
+
 }  // namespace tactus::shared
