@@ -96,7 +96,7 @@ Vec3 OperatorPassivity::force(Passivity scheme, const PassivitySettings& setting
 // What the newest answer says about the far end: its wave, and the energy it has taken in. A wave that was
 // lost is no energy.
 void OperatorPassivity::hear(Passivity scheme, const PassivitySettings& settings, const In& in) {
-    if (in.far_sample <= now_.heard) {
+    if (!now_.begun || in.far_sample <= now_.heard) {
         return;
     }
     if (now_.heard != 0) {

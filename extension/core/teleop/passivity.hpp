@@ -84,6 +84,9 @@ public:
         double far_taken = 0.0;  // FarPassivity::taken(), as heard with it (unit: joules)
     };
 
+    // An answer has come, which is heard last then (the far_ and `seconds` of `in`). Of several in a tick
+    // each has a wave of its own. None is heard before the first force().
+    void hear(Passivity scheme, const PassivitySettings& settings, const In& in);
     // The force on the hand in this tick (unit: newtons).
     Vec3 force(Passivity scheme, const PassivitySettings& settings, const In& in);
     // After limits behind it have changed what the hand is given.
@@ -101,7 +104,6 @@ private:
         Vec3 wave{0.0};
     };
     const Past* past(std::uint64_t sample) const;
-    void hear(Passivity scheme, const PassivitySettings& settings, const In& in);
     Vec3 affordable(const PassivitySettings& settings, const In& in, const Vec3& force, double energy) const;
     static Vec3 soft_force(const PassivitySettings& settings, const In& in);
     Vec3 wave_force(const PassivitySettings& settings, const In& in);

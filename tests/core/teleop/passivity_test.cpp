@@ -263,6 +263,29 @@ TEST(Passivity, WavesComeToRestInFreeSpace) {
     }
 }
 
+// In free space, at 0.2 m/s: two processes whose ticks begin at other times hear two answers in one tick and
+// none in the next.
+TEST(Passivity, WavesThatComeTwoAtATimeAreFeltAsSmoothly) {
+    const PassivitySettings settings;
+    const auto near = std::make_unique<OperatorPassivity>();
+    OperatorPassivity::In in;
+    in.velocity = {0.2, 0.0, 0.0};
+    Vec3 before(0.0);
+    double step = 0.0;
+    for (std::uint64_t t = 1; t <= 2000; ++t) {
+        in.sample = t;
+        in.hand += in.velocity * tick;
+        for (std::uint64_t heard = t - 4; t > 6 && t % 2 == 0 && heard < t - 2; ++heard) {
+            in.far_sample = heard;
+            near->hear(Passivity::wave_variables, settings, in);
+        }
+        const Vec3 force = near->force(Passivity::wave_variables, settings, in);
+        step = t > 1000 ? std::max(step, glm::distance(force, before)) : 0.0;
+        before = force;
+    }
+    EXPECT_LT(step, 0.1);
+}
+
 TEST(Passivity, AFarHandThatHasYieldedComesBack) {
     FarPassivity far;
     PassivitySettings settings;
