@@ -140,8 +140,8 @@ private:
     void start_loop();
     TickLoopSettings loop_settings() const;
     bool is_urgent() const;
-    // In every frame. No virtual method: a script's _process() would take its place.
     double frame_seconds() const;
+    // In every frame. No virtual method: a script's _process() would take its place.
     void process(double seconds);
     void physics_process();
     void node_added(const godot::Variant& node);

@@ -38,7 +38,7 @@ public:
     WorldRun(const WorldRun&) = delete;
     WorldRun& operator=(const WorldRun&) = delete;
 
-    // Gives everything back; nothing ticks after it. Whoever is at work in the run keeps it, and finds out by
+    // Gives everything back; nothing ticks after it. A caller at work in the run keeps it, and finds out by
     // is_over().
     void end();
     bool is_over() const { return running_->is_over(); }

@@ -357,12 +357,7 @@ void OperatorSide::take(const ForceSample& force) {
         ++statistics_.stale_states;
         return;
     }
-    OperatorPassivity::In heard;
-    heard.far_force = here.force;
-    heard.far_sample = here.newest_operator_sample;
-    heard.far_taken = traditional_.far(here.pointer).taken;
-    heard.seconds = seconds_;
-    pointers_[here.pointer].passivity.hear(settings().passivity, settings().passive, heard);
+    pointers_[here.pointer].passivity.hear(settings().passivity, settings().passive, heard(here.pointer));
     note_answer(force.newest_operator_sample);
 }
 

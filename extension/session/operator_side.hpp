@@ -200,6 +200,7 @@ private:
                         Nanoseconds now);
     void hide_changes(Pointer& pointer, const Vec3& modelled, const SurfaceSpring& spring, const Vec3& way,
                       bool changed);
+    OperatorPassivity::In heard(std::size_t index) const;
     Vec3 passive_force(std::size_t index, const SessionLoop::ProxySlot& slot, bool answers);
     void note_given(SessionLoop& loop, std::size_t index);
     template <typename State>  // ProxyState or ToolState

@@ -210,18 +210,24 @@ Vec3 OperatorSide::modelled_force(SessionLoop& loop, Pointer& pointer, SessionLo
     return force;
 }
 
+// What the far side has answered last.
+OperatorPassivity::In OperatorSide::heard(std::size_t index) const {
+    const TraditionalTouch::Far& far = traditional_.far(index);
+    OperatorPassivity::In in;
+    in.far_force = far.force;
+    in.far_sample = far.sample;
+    in.far_taken = far.taken;
+    in.seconds = seconds_;
+    return in;
+}
+
 // The far side's force, as much of it as makes no energy.
 Vec3 OperatorSide::passive_force(std::size_t index, const SessionLoop::ProxySlot& slot, bool answers) {
-    const TraditionalTouch::Far& far = traditional_.far(index);
     OperatorPassivity& passivity = pointers_[index].passivity;
-    OperatorPassivity::In in;
+    OperatorPassivity::In in = heard(index);
     in.sample = sample_;
     in.hand = slot.hand;
     in.velocity = slot.hand_velocity;
-    in.far_force = far.force;
-    in.far_sample = far.sample;
-    in.seconds = seconds_;
-    in.far_taken = far.taken;
     if (!answers) {
         passivity.rest(settings().passivity, settings().passive, in);
         return Vec3(0.0);

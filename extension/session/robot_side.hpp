@@ -64,11 +64,11 @@ private:
         bool holds = false;    // an operator's hand is there and the robot answers
         bool returns = false;  // from an outage: see yielding()
         Pose wanted;           // where the hand would have the tool, in this side's scene
-        Pose target;           // of the handle, likewise
+        Pose target;           // of the handle, in the same scene
         Vec3 velocity{0.0};    // of the target (unit: meters per second)
         Vec3 spin{0.0};        // (unit: radians per second)
         Wall coupling;         // of the handle to the target
-        Wall turning;          // likewise (units: newton meters, and their seconds, per radian)
+        Wall turning;          // the same of its turn (units: newton meters, and their seconds, per radian)
         Wrench contact;        // on the tool, about its origin, in this side's scene
         Vec3 had_place{0.0};   // of the handle, one tick ago (unit: meters)
         SaidWrench said;

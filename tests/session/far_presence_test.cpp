@@ -2,6 +2,7 @@
 // not touch, and no force of it changes by a step.
 #include <algorithm>
 #include <functional>
+#include <numbers>
 
 #include "linked_tools.hpp"
 
@@ -311,22 +312,28 @@ TEST(FarPresence, AFarSideThatStoodStillFollowsTheHandAtOnce) {
     }
 }
 
+// A hand on the left of a post, in both scenes.
+struct BesidePost : LinkedPlaces {
+    explicit BesidePost(const TeleopSettings& settings) : LinkedPlaces(0.05, 0.0, 1, settings, settings) {
+        add(body(BoxShape{{0.01, 0.05, 0.5}}, Vec3(0.0), Motion::Static));
+        settle();
+        near.devices[0].position = {-0.1, 0.0, 0.0};
+        ticks(500);
+    }
+};
+
 // While nothing gets through, the hand goes around a body: the far one neither goes through it nor presses.
 TEST(FarPresence, AnOutageWhileTheHandGoesAroundABodyTouchesNothing) {
     for (const int outage : {100, 300, 500, 900}) {
         for (const TeleopSettings& settings : {TeleopSettings{}, with_deadband()}) {
             SCOPED_TRACE(std::to_string(outage) + (settings.deadband.enabled ? " ms, deadband" : " ms"));
-            LinkedPlaces places(0.05, 0.0, 1, settings, settings);
-            places.add(body(BoxShape{{0.01, 0.05, 0.5}}, Vec3(0.0), Motion::Static));
-            places.settle();
+            BesidePost places(settings);
             HeldDevice& hand = places.near.devices[0];
-            hand.position = {-0.1, 0.0, 0.0};
-            places.ticks(500);
             Watch watch(places);
             Watched all;
             for (int i = 0; i <= 400; ++i) {
-                const double angle = 3.14159265358979 * i / 400.0;
-                const double speed = 3.14159265358979 / 0.4 * 0.1;
+                const double angle = std::numbers::pi * i / 400.0;
+                const double speed = std::numbers::pi / 0.4 * 0.1;
                 hand.position = {-0.1 * std::cos(angle), 0.1 * std::sin(angle), 0.0};
                 hand.velocity = i < 400 ? speed * Vec3(std::sin(angle), std::cos(angle), 0.0) : Vec3(0.0);
                 places.lose_everything(i >= 50 && i < 50 + outage);
@@ -346,12 +353,8 @@ TEST(FarPresence, AnOutageWhileTheHandGoesAroundABodyTouchesNothing) {
 TEST(FarPresence, AnOutageAfterWhichTheHandPressesElsewherePressesNoHarder) {
     for (const TeleopSettings& settings : {TeleopSettings{}, with_deadband()}) {
         SCOPED_TRACE(settings.deadband.enabled ? "deadband" : "model");
-        LinkedPlaces places(0.05, 0.0, 1, settings, settings);
-        places.add(body(BoxShape{{0.01, 0.05, 0.5}}, Vec3(0.0), Motion::Static));
-        places.settle();
+        BesidePost places(settings);
         HeldDevice& hand = places.near.devices[0];
-        hand.position = {-0.1, 0.0, 0.0};
-        places.ticks(500);
         Watch watch(places);
         const auto go = [&](const Vec3& to) {
             const Vec3 from = hand.position;
