@@ -165,9 +165,19 @@ bool is_joined(const Node& body) {
                                }) != nullptr;
 }
 
+// Where a joint had one body, or has lost one, Godot Physics leaves an exception for none.
 bool has_exceptions(const Node& node) {
     auto* const body = Object::cast_to<PhysicsBody3D>(const_cast<Node*>(&node));
-    return body != nullptr && !body->get_collision_exceptions().is_empty() && !is_joined(node);
+    if (body == nullptr || is_joined(node)) {
+        return false;
+    }
+    const Array others = body->get_collision_exceptions();
+    for (int64_t i = 0; i < others.size(); ++i) {
+        if (object_in<PhysicsBody3D>(others[i]) != nullptr) {
+            return true;
+        }
+    }
+    return false;
 }
 
 // Godot itself puts a body to sleep that it does not move: one that is frozen, or that the world holds.

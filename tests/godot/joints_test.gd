@@ -211,7 +211,6 @@ func test_a_game_that_empties_a_joint_is_told_nothing() -> void:
 	_block(world, "B", Vector3(0.5, 0, 0))
 	add_floor(world).position.y = -2.0
 	var joint := PinJoint3D.new()
-	joint.exclude_nodes_from_collision = false  # Godot leaves its exceptions behind
 	_joined(world, joint, "", "")
 	_check_quiet(world)
 	check(" ".join(world._list_warnings()).contains("joins nothing"), "no configuration warning")
