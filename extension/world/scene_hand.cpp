@@ -73,11 +73,8 @@ void SceneHand::lead(const Pose& place, const Workspace& mapping, std::uint32_t 
     if (std::isfinite(glm::dot(place.rotation, place.rotation))) {  // a node may be scaled to nothing
         turned_to_ = glm::conjugate(mapping.pose.rotation) * place.rotation;
     }
-    if (glm::length(place.position) < farthest_hand) {
-        aim(in_device(mapping, place.position), buttons);
-    } else {
-        aim(aimed_at_, 0, false);
-    }
+    const bool is_somewhere = glm::length(place.position) < farthest_hand;
+    aim(is_somewhere ? in_device(mapping, place.position) : aimed_at_, is_somewhere ? buttons : 0);
 }
 
 void SceneHand::aim(const Vec3& place, std::uint32_t buttons, bool is_there) {

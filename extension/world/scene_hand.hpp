@@ -84,7 +84,7 @@ public:
 
     // Where a hand goes that is led; any other hears none of it. `mapping` is that of now.
     bool is_led() const { return follower_ != nullptr; }
-    // To a place in the scene, with the rotation there; far beyond it there is none, and no hand.
+    // To a place in the scene, with the rotation there. Far beyond it there is none, and the hand stays.
     void lead(const Pose& place, const Workspace& mapping, std::uint32_t buttons);
     // Under a pointer, deeper by this much than it was.
     void point(const ScreenRay& ray, double deeper, const Workspace& mapping, std::uint32_t buttons);
