@@ -6,6 +6,7 @@
 #include <godot_cpp/classes/physics_direct_body_state3d.hpp>
 #include <godot_cpp/classes/physics_material.hpp>
 #include <godot_cpp/classes/physics_server3d.hpp>
+#include <godot_cpp/classes/scene_tree.hpp>
 #include <godot_cpp/core/object.hpp>
 
 #include "nodes/haptic_material.hpp"
@@ -165,6 +166,10 @@ BodyValues GodotBody::values(const BodyDefaults& defaults) {
                               : scene_.world.can_process() && !node_.can_process();
     values.motion = is_still ? Motion::Static : motion_of(node_);
     values.is_paused = is_still && rigid_ != nullptr;
+    // Godot's physics stands while the tree is paused, and would keep what hands give until it goes on.
+    if (scene_.engine_moves && values.motion == Motion::Dynamic && scene_.world.get_tree()->is_paused()) {
+        values.motion = Motion::Kinematic;
+    }
     read_touch(material, defaults, values);
     if (mesh != nullptr) {
         read_surfaces(*mesh, values);

@@ -167,6 +167,9 @@ void BodyMirror::synchronise(const MirrorContext& context, bool shapes_changed) 
         const bool was_paused = twin_.values().is_paused;
         twin_.set_values(context.session, values(context));
         if (context.engine_moves) {
+            if (is_near_ && !is_moved_by_engine_) {
+                come_near(context.session, context.seconds, false);
+            }
             go_along(frame, context);
             say_problems();
             return;
@@ -335,7 +338,7 @@ bool BodyMirror::exchange(const PhysicsFrame& frame, bool may_be_led) {
                              return glm::distance(hand, twin_.pose().position) < within;
                          });
     if (is_near != is_near_) {
-        come_near(frame, is_near);
+        come_near(frame.session, frame.seconds, is_near);
     }
     return is_near_;
 }
@@ -356,21 +359,21 @@ void BodyMirror::exchange_led(const PhysicsFrame& frame) {
     }
 }
 
-void BodyMirror::come_near(const PhysicsFrame& frame, bool is_near) {
+void BodyMirror::come_near(Session& session, double seconds, bool is_near) {
     is_near_ = is_near;
     BodyValues values = twin_.values();
     if (is_moved_by_engine_) {
         values.motion = is_near ? Motion::Dynamic : Motion::Kinematic;
     }
-    twin_.set_values(frame.session, values);
+    twin_.set_values(session, values);
     if (is_near) {
         const BodyMotion truth = body_->true_motion();
-        frame.session.set_body_velocity(handle(), truth.linear_velocity, truth.angular_velocity);
+        session.set_body_velocity(handle(), truth.linear_velocity, truth.angular_velocity);
         led_ = {};
     } else if (values.motion != Motion::Dynamic) {
-        twin_.move_to(frame.session, pose_of(frame_), frame.seconds);
+        twin_.move_to(session, pose_of(frame_), seconds);
     }
-    frame.session.lead_body(handle(), is_near);
+    session.lead_body(handle(), is_near);
 }
 
 void BodyMirror::release(Session& session) {

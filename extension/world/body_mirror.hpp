@@ -124,7 +124,7 @@ private:
     BodyValues values(const MirrorContext& context);
     void go_along(const SceneFrame& frame, const MirrorContext& context);
     void exchange_led(const PhysicsFrame& frame);
-    void come_near(const PhysicsFrame& frame, bool is_near);
+    void come_near(Session& session, double seconds, bool is_near);
     void send_place(const SceneFrame& frame, Session& session, double seconds, bool is_thrown);
     bool has_other_speed(const SceneSpeed& speed) const;
     bool is_elsewhere() const;

@@ -140,27 +140,35 @@ func test_slow_motion_throws_no_body() -> void:
 	check_near(block.position, Vector3(0, 0.05, 0), 0.005, "place of the block")
 
 
-## The tree is paused while the hand presses: nothing is kept up for the body.
+## The tree is paused while the hand presses: nothing is kept up for the body. A script may advance a world
+## then, and a body that goes on in a pause is not moved by Godot either.
 func test_a_pause_saves_up_no_impulse() -> void:
 	for mode: ProcessMode in [PROCESS_MODE_PAUSABLE, PROCESS_MODE_ALWAYS]:
-		process_mode = PROCESS_MODE_ALWAYS
-		var world := _world()
-		world.process_mode = mode
-		add_floor(world).physics_material_override.friction = 0.2
-		var block := _block(world, Vector3(0, 0.05, 0))
-		block.process_mode = PROCESS_MODE_PAUSABLE
-		add_hand(world, path(Vector3(-0.1, 0.05, 0), Vector3(-0.05, 0.05, 0), 0.5))
-		var felt := Felt.new()
-		for i in 180:
-			get_tree().paused = i >= 30 and i < 120
-			await get_tree().physics_frame
-			if world.can_process():
-				_ticks(world, 17, felt)
-		get_tree().paused = false
-		check(block.linear_velocity.length() < 0.3, "%s: %s m/s" % [mode, block.linear_velocity])
-		check(absf(block.position.x) < 0.05, "%s: the block is at %s" % [mode, block.position])
-		check(felt.largest < 12.0, "%s: %s N" % [mode, felt.largest])
-		world.free()
+		for of_block: ProcessMode in [PROCESS_MODE_PAUSABLE, PROCESS_MODE_ALWAYS]:
+			await _pause(mode, of_block)
+
+
+func _pause(mode: ProcessMode, of_block: ProcessMode) -> void:
+	var what := "world %s, block %s" % [mode, of_block]
+	process_mode = PROCESS_MODE_ALWAYS
+	var world := _world()
+	world.process_mode = mode
+	add_floor(world).physics_material_override.friction = 0.2
+	var block := _block(world, Vector3(0, 0.05, 0))
+	block.process_mode = of_block
+	add_hand(world, path(Vector3(-0.1, 0.05, 0), Vector3(-0.05, 0.05, 0), 0.5))
+	var felt := Felt.new()
+	var fastest := 0.0
+	for i in 90:
+		get_tree().paused = i >= 30 and i < 60
+		await get_tree().physics_frame
+		_ticks(world, 17, felt)
+		fastest = maxf(fastest, block.linear_velocity.length())
+	check(fastest < 0.3, "%s: %s m/s" % [what, fastest])
+	check(absf(block.position.x) < 0.02, "%s: the block is at %s" % [what, block.position])
+	check(felt.largest < 12.0, "%s: %s N" % [what, felt.largest])
+	check(felt.largest_step < 0.5, "%s: %s N in a tick" % [what, felt.largest_step])
+	world.free()
 
 
 ## Each change happens while the hand presses down on the block. Whatever it is, the force stays within what
