@@ -163,7 +163,9 @@ String HapticDevice::hindrance() const {
         const bool is_near = led_by == nullptr || !led_by->is_inside_tree() ||
                              glm::length(from_godot(led_by->get_global_position())) < farthest_hand;
         return is_near ? String()
-                       : String("it stays where it was, as its target is farther than 1000 km from the origin: bring that nearer");
+                       : String(
+                             "it stays where it was, as its target is farther than 1000 km from the origin: "
+                             "bring that nearer");
     }
     return kind() == HandKind::mouse     ? problem_of_mouse(*this)
            : kind() == HandKind::gamepad ? problem_of_gamepad(gamepad_)

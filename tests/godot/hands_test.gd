@@ -430,7 +430,10 @@ func test_a_hand_stays_where_a_node_was_before_it_was_nowhere() -> void:
 	for far: float in [2e6, INF, NAN]:
 		leader.position.x = far
 		await _play(world, 2)
-		check(device.get_state_text().contains("stays where it was"), "at %s m: %s" % [far, device.get_state_text()])
+		check(
+			device.get_state_text().contains("stays where it was"),
+			"at %s m: %s" % [far, device.get_state_text()]
+		)
 		check_near(device.get_hand_position(), place, 1e-4, "hand")
 		check_near(device.get_displayed_force(), pressed, 0.05, "force")
 		leader.position.x = 0.0
