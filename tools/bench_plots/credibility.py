@@ -44,6 +44,8 @@ FIGURES = {
     "roll.way_ratio": ("ball rolled under a finger of 2, 10, 20 mm: its way over half the finger's, worst", "%"),
     "wheel.energy_over_stored": ("energy that a braked wheel gives a hand, over what it had", ""),
     "closed_path_energy_created_max_J": ("most work that one of 40 closed paths round a block gave", "J"),
+    "closed_path_energy_created_2khz_max_J": ("… with ticks of 0.5 ms", "J"),
+    "closed_path_energy_damped_max_J": ("… with a surface damping of k dt / 2", "J"),
     "closed_path_energy_between_ticks_max_J": ("… with the mean force of two ticks", "J"),
     "closed_path_energy_at_handle_max_J": ("… at the handle of a device with motors", "J"),
     "light.impulse_1g": ("impulse that a free body of 1 g got, against what the hand gave", "%"),

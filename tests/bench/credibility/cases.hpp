@@ -50,9 +50,10 @@ inline void add_case(Results& results, const std::string& name, double ours, dou
 // A session with one hand and its fingertip, in virtual time.
 class Stage {
 public:
+    // `period` is that of a tick.
     explicit Stage(double radius, const Vec3& start, const Vec3& gravity_there = {0.0, -gravity, 0.0},
-                   const DeviceCapabilities& device = {})
-        : session_(settings(gravity_there)) {
+                   const DeviceCapabilities& device = {}, Nanoseconds period = 1'000'000)
+        : session_(settings(gravity_there, period)), period_(period) {
         hand.position = start;
         hand.can = device;
         ProxyDescription finger;
@@ -64,10 +65,12 @@ public:
     }
 
     // `friction`: of the fingertip on it.
-    SessionHandle add(const BodyDescription& description, double stiffness, double friction) {
+    SessionHandle add(const BodyDescription& description, double stiffness, double friction,
+                      double damping = 0.0) {
         BodyAddition addition;
         addition.description = description;
         addition.touch_material.stiffness = stiffness;
+        addition.touch_material.damping = damping;
         addition.touch_material.static_friction = addition.touch_material.dynamic_friction = friction;
         const AddResult result = session_.add_body(addition);
         if (!result.error.empty()) {
@@ -82,18 +85,19 @@ public:
     void go(const Vec3& to) {
         const Vec3 way = to - hand.position;
         const Vec3 before = hand.force;
-        hand.velocity = way / tick;
+        hand.velocity = way / seconds_a_tick();
         hand.position = to;
-        session_.tick(now_ += 1'000'000);
+        session_.tick(now_ += period_);
         work_ += glm::dot(before, way);
         work_between_ += 0.5 * glm::dot(before + hand.force, way);
         if (hand.can.feels && before != Vec3(0.0))
-            friction_ += hand.can.damping * glm::dot(way, way) / tick;
+            friction_ += hand.can.damping * glm::dot(way, way) / seconds_a_tick();
     }
     void wait(double seconds) {
-        for (int i = 0; i < seconds / tick; ++i)
+        for (int i = 0; i < seconds / seconds_a_tick(); ++i)
             go(hand.position);
     }
+    double seconds_a_tick() const { return 1e-9 * static_cast<double>(period_); }
     // On the hand since the beginning (unit: joules).
     double work() const { return work_; }
     // The same without what a force that is held for a tick adds (unit: joules).
@@ -112,8 +116,9 @@ public:
     Hand hand;
 
 private:
-    static SessionSettings settings(const Vec3& gravity_there) {
+    static SessionSettings settings(const Vec3& gravity_there, Nanoseconds period) {
         SessionSettings result;
+        result.period = period;
         result.max_bodies = 64;
         result.max_parts = 64;
         result.physics.gravity = gravity_there;
@@ -121,6 +126,7 @@ private:
     }
 
     Session session_;
+    Nanoseconds period_;
     Nanoseconds now_ = 0;
     double work_ = 0.0;
     double work_between_ = 0.0;

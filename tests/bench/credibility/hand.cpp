@@ -96,7 +96,9 @@ DeviceCapabilities with_motors() {
 }
 
 // A hand goes round a block that stands still and comes back to where it was: no such way may give work.
-Given closed_path(int i, const DeviceCapabilities& device = {}) {
+// `damping`: of the surface, in k dt / 2.
+Given closed_path(int i, double damping = 0.0, Nanoseconds period = 1'000'000,
+                  const DeviceCapabilities& device = {}) {
     const std::array<double, 5> depths{0.003, 0.008, 0.012, 0.015, 0.02};
     const std::array<double, 2> radii{0.002, 0.005};
     const std::array<double, 2> speeds{0.1, 0.4};
@@ -105,15 +107,16 @@ Given closed_path(int i, const DeviceCapabilities& device = {}) {
     const double radius = radii[static_cast<std::size_t>(i / 5) % 2];
     const double speed = speeds[static_cast<std::size_t>(i / 10) % 2];
     const double stiffness = stiffnesses[static_cast<std::size_t>(i / 20) % 2];
-    Stage stage(radius, {0.0, 0.05, 0.0}, Vec3(0.0), device);
+    Stage stage(radius, {0.0, 0.05, 0.0}, Vec3(0.0), device, period);
+    const double step = speed * stage.seconds_a_tick();
     BodyDescription block = shared::box({0.1, 0.06, 0.1}, Vec3(0.0), 1.0);
     block.motion = Motion::Static;
-    stage.add(block, stiffness, 0.0);
+    stage.add(block, stiffness, 0.0, damping * 0.5 * stiffness * stage.seconds_a_tick());
     stage.wait(0.01);
     Given most;
     const auto to = [&](const Vec3& target) {
         const Vec3 from = stage.hand.position;
-        const int ticks = std::max(1, static_cast<int>(glm::distance(from, target) / (speed * tick)));
+        const int ticks = std::max(1, static_cast<int>(glm::distance(from, target) / step));
         for (int k = 1; k <= ticks; ++k)
             stage.go(from + (target - from) * (static_cast<double>(k) / ticks));
     };
@@ -184,12 +187,18 @@ void measure_hand(Results& results) {
         results.add(std::string("light.impulse_damped") + name, damped);
     }
     Given created;
+    double at_2khz = 0.0;
+    double damped = 0.0;
     for (int i = 0; i < 40; ++i) {
         const Given path = closed_path(i);
         created = {std::max(created.held, path.held), std::max(created.between, path.between),
-                   std::max(created.handle, closed_path(i, with_motors()).handle)};
+                   std::max(created.handle, closed_path(i, 0.0, 1'000'000, with_motors()).handle)};
+        at_2khz = std::max(at_2khz, closed_path(i, 0.0, 500'000).held);
+        damped = std::max(damped, closed_path(i, 1.0).held);
     }
     results.add("closed_path_energy_created_max_J", created.held);
+    results.add("closed_path_energy_created_2khz_max_J", at_2khz);
+    results.add("closed_path_energy_damped_max_J", damped);
     results.add("closed_path_energy_between_ticks_max_J", created.between);
     results.add("closed_path_energy_at_handle_max_J", created.handle);
     results.add("push.force", deviation(accelerated(), 1.0));
