@@ -7,11 +7,11 @@
 //     w' = I(q')^-1 (L + I(q) dw)
 // so L changes by torques alone, to the last digit of single precision.
 //
-// The torque-free rotation is composed of rotations about the principal axes,
-//     x(h/2) y(h/2) z(h) y(h/2) x(h/2),   each by h L_i / I_i
-// (Dullweber, Leimkuhler and McLachlan 1997), three of which make a step of fourth order (Yoshida 1990):
-// symplectic and symmetric in time, so the energy of a spin does not drift; a product of rotations, so it is
-// stable at every rate.
+// The torque-free rotation exp(r) solves Euler's equations in the frame of the principal axes, with J = I^-1:
+//     dR/dt = R [w],  w = J L,  dL/dt = L x w
+// by the series of Magnus (1954) over the derivatives w0, w1, w2, w3 of w when the step begins:
+//     r = h w0 + h^2/2 w1 + h^3/12 (2 w2 + w0 x w1) + h^4/24 (w3 + w0 x w2) + O(h^5)
+// A fast spin takes several such parts. L is kept besides, so no spin gains more than L^2 / (2 I_min).
 #pragma once
 
 #include <span>
@@ -37,9 +37,9 @@ public:
 private:
     struct Spin {
         JPH::Body* body;
-        JPH::Quat rotation;  // when the step began
-        Vec3 momentum;       // then, in the world
-        Vec3 velocity;       // that leads to the torque-free rotation
+        Quat axes;      // frame of the principal axes in the world when the step began
+        Vec3 momentum;  // then, along them
+        Vec3 velocity;  // that leads to the torque-free rotation, in the world
     };
     std::vector<Spin> spins_;
 };

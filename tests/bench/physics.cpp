@@ -1,6 +1,6 @@
 // Things that move: what a tick with moving bodies costs, how they feel, and how right they are.
 //
-//     physics [--quick] [--only=tick|crowd|changes|feel|rollback|checks|awake]
+//     physics [--quick] [--only=tick|crowd|changes|feel|rollback|checks|awake|rolling]
 //
 // Writes the file that TACTUS_BENCH_JSON names (build/bench/physics.json otherwise): one flat object. Whole
 // ticks are a Session's; Jolt's bare step is Jolt's own world of the same boxes, stepped in turns with it in
@@ -56,5 +56,7 @@ int main(int count, char** arguments) {
         checks(results);
     if (part("awake"))
         bench::measure_awake(results, quick);
+    if (part("rolling"))
+        bench::measure_rolling(results, quick);
     return results.report.write_json(shared::result_path("physics")) ? 0 : 1;
 }

@@ -138,6 +138,7 @@ inline Vec3 place(int i, double apart = 0.2) {
 void measure_ticks(Results& results, int rounds);
 void measure_crowds(Results& results, int rounds);
 void measure_awake(Results& results, bool quick);
+void measure_rolling(Results& results, bool quick);
 void measure_arrivals(Results& results);
 // Pushing and pressing.
 void measure_feel(Results& results);

@@ -257,6 +257,36 @@ void measure_awake(Results& results, bool quick) {
     }
 }
 
+// Cans that roll at 50 mm/s, apart from each other: their contacts are found anew and their spin is followed
+// in each step.
+void measure_rolling(Results& results, bool quick) {
+    constexpr double radius = 0.025;
+    constexpr double speed = 0.05;
+    const Quat lying(std::sqrt(0.5), std::sqrt(0.5), 0.0, 0.0);
+    for (const int cans : {30, 300}) {
+        Rig rig(static_cast<std::uint32_t>(cans) + 8, 500.0, false);
+        rig.add(ground());
+        for (int i = 0; i < cans; ++i) {
+            BodyDescription can = box(Vec3(edge), {0.3 * (i % 20), radius, -0.15 * (i / 20)}, 0.1);
+            can.shapes = shared::one(CylinderShape{radius, radius});
+            can.pose.rotation = lying;
+            can.linear_velocity = {speed, 0.0, 0.0};
+            can.angular_velocity = {0.0, 0.0, -speed / radius};
+            can.can_sleep = false;
+            rig.add(can);
+        }
+        rig.settle();
+        std::vector<double> times;
+        for (int i = 0; i < (quick ? 400 : 2200); ++i) {
+            const double time = rig.step();
+            if (i >= 200)
+                times.push_back(time);
+        }
+        results.add("rolling_" + std::to_string(cans) + "_tick_p50_us", percentile(times, 0.5));
+        results.add("rolling_" + std::to_string(cans) + "_tick_p99_us", percentile(times, 0.99));
+    }
+}
+
 // Boxes that are all sent in one tick, to a world that runs: the ticks until the last of them is there.
 void measure_arrivals(Results& results) {
     constexpr int boxes = 900;
