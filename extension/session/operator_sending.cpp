@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/geometry/surface_query.hpp"
+#include "core/safety/limited_force.hpp"
 #include "session/operator_side.hpp"
 
 namespace tactus {
@@ -29,11 +30,18 @@ bool OperatorSide::is_guessed(const SentHand& sent, const OperatorSample& sample
     const Quat turned = turn_by(last.spin, guessed_time(seconds)) * last.rotation;
     return deadband.enabled && sent.since != no_sample &&
            !position_needs_sending(deadband, guessed, sample.position, sample.velocity) &&
-           (settings().traditional ||
-            ((sample.force == Vec3(0.0)) == (last.force == Vec3(0.0)) &&
-             !press_needs_sending(glm::length(last.force), glm::length(sample.force)))) &&
+           is_press_guessed(last.force, sample.force) &&
            (!sample.has_turn || angle_between(turned, sample.rotation) <= deadband.angle) &&
            sample.buttons == last.buttons && sample.connected == last.connected;
+}
+
+bool OperatorSide::is_press_guessed(const Vec3& last, const Vec3& force) const {
+    if (settings().traditional && settings().passivity != Passivity::none) {
+        return true;
+    }
+    const double before = glm::length(last), now = glm::length(force);
+    const bool falls = settings().traditional && press_needs_sending(now, before);
+    return (before == 0.0) == (now == 0.0) && !press_needs_sending(before, now) && !falls;
 }
 
 bool OperatorSide::is_due(const SentHand& sent, Nanoseconds now) const {
@@ -80,12 +88,33 @@ void OperatorSide::send_absence(SentHand& sent, Nanoseconds now) {
     send(sent, gone, !is_news, now);
 }
 
-// What the far side needs to do the same: the true hand, and what it presses bodies with.
+// Without a model, see DeniedPress. `force`: that the far side has told.
+Vec3 OperatorSide::far_bound(const DeniedPress& denied, const Vec3& force) const {
+    const double size = glm::length(force);
+    return denied.binds() && size > 0.0 ? force * (denied.most() / size) : Vec3(0.0);
+}
+
+void OperatorSide::note_denied(SessionLoop& loop, std::size_t index) {
+    const SessionLoop::ProxySlot& slot = loop.proxy(index);
+    Pointer& pointer = pointers_[index];
+    const Vec3& pressed = settings().traditional ? pointer.modelled : slot.force;
+    const Vec3 wanted =
+        pointer.carried.apart() ? limited_force(slot.force, loop.force_limit(slot)) : pointer.modelled;
+    pointer.sent.denied.step(
+        {glm::length(pressed), glm::length(wanted), glm::length(pointer.force), seconds_});
+}
+
+// What the far side needs to do the same: the hand, and what it presses bodies with.
 void OperatorSide::send_sample(SessionLoop& loop, std::size_t index, Nanoseconds now) {
     const SessionLoop::ProxySlot& slot = loop.proxy(index);
     Pointer& pointer = pointers_[index];
     const DeviceSample device = loop.device_sample(slot.description.device);
     const DeadbandSettings& deadband = settings().deadband;
+    note_denied(loop, index);
+    const DeniedPress& denied = pointer.sent.denied;
+    const bool is_nearer = denied.binds() && !settings().traditional;
+    const Vec3 hand =
+        is_nearer ? nearer(slot.hand, slot.proxy->position(), slot.force, denied.share()) : slot.hand;
     OperatorSample sample;
     sample.sequence = sample_;
     sample.time = channel_.link().local_time(now);
@@ -94,11 +123,12 @@ void OperatorSide::send_sample(SessionLoop& loop, std::size_t index, Nanoseconds
                                (slot.state.status & proxy_absent) == 0);
     sample.buttons = device.buttons;
     const Pose& frame = settings().frame;
-    sample.position = to_local(frame, slot.hand);
-    sample.velocity = direction_to_local(frame, slot.hand_velocity);
-    // Traditional: only a passive scheme asks for it, and for what the hand was given.
-    const Vec3 given = settings().passivity != Passivity::none ? pointer.passivity.told() : Vec3(0.0);
-    sample.force = direction_to_local(frame, settings().traditional ? given : slot.force);
+    sample.position = to_local(frame, hand);
+    sample.velocity = is_nearer ? Vec3(0.0) : direction_to_local(frame, slot.hand_velocity);
+    const Vec3 force = !settings().traditional                   ? denied.share() * slot.force
+                       : settings().passivity != Passivity::none ? pointer.passivity.told()
+                                                                 : far_bound(denied, pointer.modelled);
+    sample.force = direction_to_local(frame, force);
     SentHand& sent = pointer.sent;
     const bool same_force =
         !uses_force(settings().control) || !force_needs_sending(deadband, sent.last.force, sample.force);
@@ -107,12 +137,12 @@ void OperatorSide::send_sample(SessionLoop& loop, std::size_t index, Nanoseconds
         return;
     }
     if (!settings().traditional && settings().control == ControlScheme::position_force_relative) {
-        find_nearest(loop, slot, sample);
+        find_nearest(loop, slot, hand, sample);
     }
     send(sent, sample, says_nothing_new, now);
 }
 
-void OperatorSide::find_nearest(SessionLoop& loop, const SessionLoop::ProxySlot& slot,
+void OperatorSide::find_nearest(SessionLoop& loop, const SessionLoop::ProxySlot& slot, const Vec3& hand,
                                 OperatorSample& sample) const {
     double near = settings().stand_in.near + slot.description.settings.radius;
     for (std::size_t place = 0; place < truths_.places(); ++place) {
@@ -127,7 +157,7 @@ void OperatorSide::find_nearest(SessionLoop& loop, const SessionLoop::ProxySlot&
         if (nearest.hit) {
             near = nearest.distance;
             sample.nearest_object = object_of_body_[handle];
-            sample.position_in_object = to_local(touched.pose, slot.hand);
+            sample.position_in_object = to_local(touched.pose, hand);
         }
     }
 }

@@ -21,6 +21,7 @@
 #include "network/sample_stream.hpp"
 #include "session/carried_pointer.hpp"
 #include "session/channel.hpp"
+#include "session/denied_press.hpp"
 #include "session/ghosts.hpp"
 #include "session/resimulator.hpp"
 #include "session/side_settings.hpp"
@@ -74,6 +75,7 @@ private:
         Nanoseconds at = 0;
         SampleSequence since = no_sample;         // the first one that says what `last` says; no_sample: none
         SampleSequence acknowledged = no_sample;  // the newest one that has come there and stands
+        DeniedPress denied;
     };
 
     struct Pointer {
@@ -222,17 +224,22 @@ private:
     Wrench far_wrench(std::size_t index, ToolSlot& slot, bool& changed);
     void feel(SessionLoop& loop, std::size_t index, ToolSlot& slot);
     void hide_changes(Tool& tool, const Wrench& modelled, const ToolSlot& slot, bool changed);
+    void note_denied(Tool& tool, const ToolSlot& slot) const;
     void send_tool(SessionLoop& loop, std::size_t index, const ToolSlot& slot, Nanoseconds now);
 
     // --- operator_sending.cpp
     void acknowledge();
     bool is_guessed(const SentHand& sent, const OperatorSample& sample) const;
+    bool is_press_guessed(const Vec3& last, const Vec3& force) const;
     bool is_due(const SentHand& sent, Nanoseconds now) const;
     bool is_told(SentHand& sent, std::uint32_t start, bool is_held, bool has_room) const;
     void send_absence(SentHand& sent, Nanoseconds now);
     void send(SentHand& sent, const OperatorSample& sample, bool says_nothing_new, Nanoseconds now);
+    Vec3 far_bound(const DeniedPress& denied, const Vec3& force) const;
+    void note_denied(SessionLoop& loop, std::size_t index);
     void send_sample(SessionLoop& loop, std::size_t index, Nanoseconds now);
-    void find_nearest(SessionLoop& loop, const SessionLoop::ProxySlot& slot, OperatorSample& sample) const;
+    void find_nearest(SessionLoop& loop, const SessionLoop::ProxySlot& slot, const Vec3& hand,
+                      OperatorSample& sample) const;
 
     OperatorRoom room_;
     Channel channel_;

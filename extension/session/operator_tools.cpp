@@ -4,6 +4,7 @@
 #include <array>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <utility>
 
 #include "core/safety/limited_force.hpp"
@@ -254,12 +255,27 @@ void OperatorSide::hide_changes(Tool& tool, const Wrench& modelled, const ToolSl
     }
 }
 
+void OperatorSide::note_denied(Tool& tool, const ToolSlot& slot) const {
+    const Vec3& pressed = settings().traditional ? tool.modelled.force : slot.wrench.force;
+    tool.sent.denied.step(
+        {glm::length(pressed), glm::length(tool.modelled.force), glm::length(tool.given.force), seconds_});
+}
+
 // Where the hand would have the tool, whatever its grasp is: the tool at the far side does the same with it.
 void OperatorSide::send_tool(SessionLoop& loop, std::size_t index, const ToolSlot& slot, Nanoseconds now) {
     Tool& tool = tools_[index];
     const DeviceSample device = loop.device_sample(slot.use.device);
     const Pose& frame = settings().frame;
-    const Pose place = compose(inverse(frame), slot.hand.goal);
+    note_denied(tool, slot);
+    const DeniedPress& denied = tool.sent.denied;
+    const bool is_nearer = denied.binds() && !settings().traditional;
+    Pose goal = slot.hand.goal;
+    if (is_nearer) {
+        const Pose& reached = slot.state.pose;
+        goal = {nearer(goal.position, reached.position, slot.wrench.force, denied.share()),
+                glm::slerp(reached.rotation, goal.rotation, denied.share())};
+    }
+    const Pose place = compose(inverse(frame), goal);
     OperatorSample sample;
     sample.sequence = sample_;
     sample.time = channel_.link().local_time(now);
@@ -268,13 +284,13 @@ void OperatorSide::send_tool(SessionLoop& loop, std::size_t index, const ToolSlo
                                (slot.state.status & tool_absent) == 0);
     sample.buttons = device.buttons;
     sample.position = place.position;
-    sample.velocity = direction_to_local(frame, slot.hand.velocity);
+    sample.velocity = is_nearer ? Vec3(0.0) : direction_to_local(frame, slot.hand.velocity);
     sample.has_turn = true;
     sample.rotation = place.rotation;
-    sample.spin = direction_to_local(frame, slot.hand.spin);
-    sample.force = settings().traditional ? Vec3(0.0)
-                                          : glm::clamp(direction_to_local(frame, slot.state.force),
-                                                       -plausible::max_force, plausible::max_force);
+    sample.spin = is_nearer ? Vec3(0.0) : direction_to_local(frame, slot.hand.spin);
+    const Vec3 force =
+        settings().traditional ? far_bound(denied, tool.modelled.force) : denied.share() * slot.state.force;
+    sample.force = glm::clamp(direction_to_local(frame, force), -plausible::max_force, plausible::max_force);
     const bool says_nothing_new = is_guessed(tool.sent, sample);
     if (!says_nothing_new || is_due(tool.sent, now)) {
         send(tool.sent, sample, says_nothing_new, now);

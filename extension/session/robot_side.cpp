@@ -130,8 +130,8 @@ void RobotSide::play(SessionLoop& loop, std::size_t index, const SessionLoop::Pr
                                  robot.workspace.pose.position, robot.capabilities.radius * scale, seconds_);
     const double left = glm::distance(to_parent(settings().frame, pointer.played.position), slot.hand);
     pointer.returns = hands_.is_outage(index) || (pointer.returns && left > slot.description.settings.radius);
-    if (pointer.returns) {
-        pointer.target = yielding(pointer.target, slot.hand, glm::length(pointer.played.force),
+    if (const auto most = most_press(pointer.played, pointer.returns)) {
+        pointer.target = yielding(pointer.target, slot.hand, *most,
                                   glm::length(friction_of(body, slot.hand_velocity / scale)), coupling);
     }
     pointer.passivity.went(pointer.target);
@@ -140,13 +140,18 @@ void RobotSide::play(SessionLoop& loop, std::size_t index, const SessionLoop::Pr
 }
 
 // After an outage the operator's hand may have gone around what the robot runs into on its straight way. A
-// robot cannot begin elsewhere: with a model it is led by no more than the operator is pressed with, besides
-// its own friction, until it is there.
-Vec3 RobotSide::yielding(const Vec3& target, const Vec3& place, double own_force, double friction,
-                         const Wall& coupling) const {
-    return settings().traditional
-               ? target
-               : place + shortened(target - place, (own_force + friction + unseen) / coupling.stiffness);
+// robot cannot begin elsewhere: with a model it is led by no more than the operator is pressed with until it
+// is there. Without one the operator says where its hand may press no harder (unit: newtons).
+std::optional<double> RobotSide::most_press(const PointerSample& played, bool returns) const {
+    return returns || settings().traditional
+               ? known_press(settings().traditional, settings().passivity, played.force)
+               : std::nullopt;
+}
+
+// Led by so much, besides what its own friction takes.
+Vec3 RobotSide::yielding(const Vec3& target, const Vec3& place, double most, double friction,
+                         const Wall& coupling) {
+    return place + shortened(target - place, (most + friction + unseen) / coupling.stiffness);
 }
 
 // Where the operator's stand-in would have the robot.

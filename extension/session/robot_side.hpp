@@ -12,6 +12,7 @@
 
 #include "core/teleop/robot_drive.hpp"
 #include "session/body_telling.hpp"
+#include "session/denied_press.hpp"
 #include "session/played_hands.hpp"
 #include "session/tool_telling.hpp"
 #include "session/touch_learner.hpp"
@@ -38,7 +39,7 @@ private:
         FarPassivity passivity;
         ContactObserver observer;
         bool holds = false;    // an operator's hand is there and the robot answers
-        bool returns = false;  // from an outage: see yielding()
+        bool returns = false;  // from an outage: see most_press()
         Vec3 target{0.0};      // in this side's scene (unit: meters)
         Vec3 velocity{0.0};    // of the target (unit: meters per second)
         Wall coupling;         // of the robot to the target
@@ -62,7 +63,7 @@ private:
         ContactObserver observer, twist_observer;
         Wrist wrist = Wrist::unknown;
         bool holds = false;    // an operator's hand is there and the robot answers
-        bool returns = false;  // from an outage: see yielding()
+        bool returns = false;  // from an outage: see most_press()
         Pose wanted;           // where the hand would have the tool, in this side's scene
         Pose target;           // of the handle, in the same scene
         Vec3 velocity{0.0};    // of the target (unit: meters per second)
@@ -79,8 +80,9 @@ private:
     void release_hands(SessionLoop& loop);
     static RobotBody body_of(const DeviceCapabilities& robot);
     Wall coupling_of(const RobotView& robot) const;
-    Vec3 yielding(const Vec3& target, const Vec3& place, double own_force, double friction,
-                  const Wall& coupling) const;
+    std::optional<double> most_press(const PointerSample& played, bool returns) const;
+    static Vec3 yielding(const Vec3& target, const Vec3& place, double most, double friction,
+                         const Wall& coupling);
     void play(SessionLoop& loop, std::size_t index, const SessionLoop::ProxySlot& slot);
     Vec3 hand_of(Pointer& pointer, const SessionLoop::ProxySlot& slot, const RobotView& robot,
                  const Wall& coupling) const;

@@ -96,10 +96,10 @@ void RobotSide::lead(Tool& tool, const ToolSlot& slot, const RobotView& robot) c
     tool.target.position =
         next_target(before.position, tool.wanted.position - tool.target.rotation * grasp.position, speed,
                     robot.workspace.pose.position, robot.capabilities.radius * scale, seconds_);
-    if (tool.returns) {
+    if (const auto most_pressed = most_press(tool.played, tool.returns)) {
         const Vec3 velocity = slot.hand.velocity_at(slot.hand.place) / scale;
         tool.target.position =
-            yielding(tool.target.position, slot.hand.place, glm::length(tool.played.force),
+            yielding(tool.target.position, slot.hand.place, *most_pressed,
                      glm::length(friction_of(body_of(robot.capabilities), velocity)), tool.coupling);
     }
     tool.velocity = (tool.target.position - before.position) / seconds_;

@@ -108,8 +108,11 @@ void SessionLoop::place_hand(DeviceSlot& slot) const {
 }
 
 double SessionLoop::force_limit(SessionHandle device) const {
-    const Workspace workspace = device < max_devices ? devices_[device].workspace : Workspace{};
-    return workspace.force_limit / workspace.force_scale;
+    if (device >= max_devices) {
+        return Workspace{}.force_limit;
+    }
+    const DeviceSlot& slot = devices_[device];
+    return std::min(slot.workspace.force_limit, slot.capabilities.max_force) / slot.workspace.force_scale;
 }
 
 // FadingForce::Step::fade of who is in that hand (unit: newtons of the scene).

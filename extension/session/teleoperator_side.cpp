@@ -129,6 +129,9 @@ void TeleoperatorSide::play(SessionLoop& loop, std::size_t index, SessionLoop::P
     }
     slot.idle = pointer.goes = pointer.is_new = false;
     play_hand(loop, pointer, slot);
+    if (settings().traditional && known_press(pointer.here)) {
+        pointer.limit.come();
+    }
     const auto hand = hands_.leads(index) ? PressLimit::Hand::guessed : PressLimit::Hand::here;
     // Farther away than it is large, it has been led into a body that the operator's hand has gone around.
     if (hand == PressLimit::Hand::here && pointer.limit.returns() && is_free(pointer) &&
@@ -192,9 +195,7 @@ void TeleoperatorSide::draw_back(SessionLoop& loop, Pointer& pointer, SessionLoo
                                  PressLimit::Hand hand, bool is_outage) {
     PressLimit::In in = limited(loop, slot.state, hand);
     in.is_outage = is_outage;
-    if (!settings().traditional) {
-        in.own_force = glm::length(pointer.here.force);
-    }
+    in.own_force = known_press(pointer.here);
     pointer.limit.step(in);
     const ProxyMemory memory = slot.proxy->memory();
     const ProxyTick tick = slot.proxy->move(loop.scene(), slot.hand, seconds_);

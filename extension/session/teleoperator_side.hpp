@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "session/body_telling.hpp"
+#include "session/denied_press.hpp"
 #include "session/ghosts.hpp"
 #include "session/played_hands.hpp"
 #include "session/press_limit.hpp"
@@ -96,6 +97,9 @@ private:
     void let_go(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot);
     KeptPlace kept(const SessionLoop& loop, const auto& state, const Pose& proxy) const;
     std::optional<Pose> way_back(const SessionLoop& loop, const KeptPlace& kept, bool is_free) const;
+    std::optional<double> known_press(const PointerSample& sample) const {
+        return tactus::known_press(settings().traditional, settings().passivity, sample.force);
+    }
     bool is_free(const Pointer& pointer) const;
     bool is_free(const Tool& tool) const;
     void come_back(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot) const;

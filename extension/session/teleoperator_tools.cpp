@@ -35,6 +35,9 @@ void TeleoperatorSide::play(SessionLoop& loop, std::size_t index, ToolSlot& slot
             come_back(loop, tool, slot);
         }
     }
+    if (settings().traditional && known_press(tool.played)) {
+        tool.limit.come();
+    }
     if (!PlayedHands::leads(slot) && tool.limit.returns() && is_free(tool) &&
         slot.stretch(slot.state.pose) > slot.proxy.shape().reach) {
         slot.proxy.restart();
@@ -112,9 +115,7 @@ void TeleoperatorSide::draw_back(Tool& tool, ToolSlot& slot, const ToolState& be
     in.force = glm::length(before.force);
     in.seconds = seconds_;
     in.is_outage = PlayedHands::is_outage(slot);
-    if (!settings().traditional) {
-        in.own_force = glm::length(tool.played.force);
-    }
+    in.own_force = known_press(tool.played);
     tool.limit.step(in);
     const Pose& reached = slot.state.pose;
     const double depth = slot.state.contact_count > 0 ? slot.stretch(reached) : 0.0;
