@@ -4,7 +4,8 @@
 // A body that touches another one that moves teaches nothing by itself: what it gets from there belongs to
 // both. Bodies that touch each other are one: what they do to each other leaves their common momentum as it
 // is, so that the mean of their motions, weighted by mass, is that of one body that only hands and what
-// stands still act on. What it teaches holds for each of them.
+// stands still act on. What it tells holds for each of them that moves along, and makes it as certain as its
+// share of the mass.
 #include <algorithm>
 #include <cmath>
 
@@ -132,10 +133,13 @@ void OperatorSide::teach(SessionLoop& loop, std::size_t group) {
          {&common.truth_before, &common.truth, &common.model_before, &common.model, &common.pushed}) {
         *v /= mass;
     }
+    const auto moves_along = [&](const Pupil& pupil) {
+        return glm::dot(pupil.lesson.truth, common.truth) >= 0.5 * glm::dot(common.truth, common.truth);
+    };
     for (const Pupil& pupil : pupils_) {
-        if (pupil.group == group) {
+        if (pupil.group == group && moves_along(pupil)) {
             ParameterEstimate& estimate = estimates_[pupil.place];
-            estimate.learn(settings().estimate, count == 1 ? pupil.lesson : common);
+            estimate.learn(settings().estimate, count == 1 ? pupil.lesson : common, pupil.mass / mass);
             set_factors(loop, pupil.body, estimate);
         }
     }

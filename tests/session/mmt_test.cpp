@@ -140,6 +140,24 @@ TEST(Mmt, AWrongStackIsLessWrongForBeingCorrected) {
     EXPECT_LT(corrected.at("force_error_mean_N"), 0.5 * never.at("force_error_mean_N"));
 }
 
+// A row of three boxes is pushed, and then its last one alone.
+TEST(Mmt, WhatWasPushedWithOthersIsIdentifiedWhenItIsPushedAlone) {
+    TeleopScene row = scene(true);
+    TeleopCase rough = with_delay(100.0, 5.0);
+    rough.object = "Box";
+    rough.wrong["Ground"].friction = rough.wrong["Box"].friction = 3.0;
+    const std::pair<const char*, Vec3> others[] = {{"Box2", {-0.16, 0.075, 0.24}},
+                                                   {"Box3", {-0.2, 0.075, 0.08}}};
+    for (const auto& [name, place] : others) {
+        row.bodies.push_back(body(name, BoxShape{Vec3(0.075)}, place, Motion::Dynamic));
+        rough.wrong[name] = rough.wrong["Box"];
+    }
+    const TeleopFigures corrected = run_teleop(row, rough);
+    rough.settings.correction = Correction::none;
+    const TeleopFigures never = run_teleop(row, rough);
+    EXPECT_LT(corrected.at("force_error_mean_N"), 0.15 * never.at("force_error_mean_N"));
+}
+
 TEST(Mmt, TheBoundErrsOnlyUntilTheFirstMistakeCanBeKnown) {
     TeleopCase never = wrong_box(100.0);
     never.settings.correction = Correction::none;

@@ -24,7 +24,7 @@ void ParameterEstimate::forget(const EstimateSettings& settings) {
     pp_ = qq_ = settings.uncertainty * settings.uncertainty;
 }
 
-void ParameterEstimate::learn(const EstimateSettings& settings, const MotionLesson& lesson) {
+void ParameterEstimate::learn(const EstimateSettings& settings, const MotionLesson& lesson, double share) {
     const Vec3 mean = 0.5 * (lesson.truth_before + lesson.truth);
     const double speed = glm::length(mean);
     moved_by_hand_ = lesson.pushed != Vec3(0.0) || (moved_by_hand_ && speed > settings.slow);
@@ -57,9 +57,9 @@ void ParameterEstimate::learn(const EstimateSettings& settings, const MotionLess
     const double limit = std::log(settings.largest);
     p_ = std::clamp(p_ + settings.gain * a / variance * missing, -limit, limit);
     q_ = std::clamp(q_ + settings.gain * b / variance * missing, -limit, limit);
-    pp_ -= a * a / variance;
-    pq_ -= a * b / variance;
-    qq_ -= b * b / variance;
+    pp_ -= share * a * a / variance;
+    pq_ -= share * a * b / variance;
+    qq_ -= share * b * b / variance;
 }
 
 void ParameterEstimate::take_over_mass(const EstimateSettings& settings, double factor, double deviation) {

@@ -46,7 +46,9 @@ public:
     explicit ParameterEstimate(const EstimateSettings& settings = {}) { forget(settings); }
 
     void forget(const EstimateSettings& settings);
-    void learn(const EstimateSettings& settings, const MotionLesson& lesson);
+    // `share`: of the mass that the lesson is about, 0 … 1. The others are taken to be as wrong as this body,
+    // so p and q follow all that is missing. Yet they are as certain as the share alone makes them.
+    void learn(const EstimateSettings& settings, const MotionLesson& lesson, double share = 1.0);
 
     // Who has measured the mass knows it better: its factor and how sure that is (standard deviation, share
     // of it).

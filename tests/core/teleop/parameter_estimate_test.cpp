@@ -60,6 +60,23 @@ TEST(ParameterEstimate, ASteadyPushTeachesTheForceItTakes) {
     EXPECT_NEAR(model.mass * model.friction * gravity, push, 0.02 * push);
 }
 
+// Ten bodies are pushed together, then one of them alone, and it is another than all of them are.
+TEST(ParameterEstimate, WhatManySharedMakesNoneOfThemCertain) {
+    const EstimateSettings settings;
+    const Block together{0.3, 0.5}, alone{0.3, 0.25};
+    const auto left = [&](double share) {
+        ParameterEstimate estimate(settings);
+        for (int i = 0; i < 50; ++i) {
+            estimate.learn(settings, lesson(together, together, estimate, 1.5 + std::sin(0.3 * i)), share);
+        }
+        for (int i = 0; i < 20; ++i) {
+            estimate.learn(settings, lesson(alone, together, estimate, 1.5 + std::sin(0.3 * i)));
+        }
+        return std::abs(estimate.friction_factor() - 0.5);
+    };
+    EXPECT_LT(left(0.1), 0.5 * left(1.0));
+}
+
 TEST(ParameterEstimate, WhatRestsTeachesNothing) {
     const EstimateSettings settings;
     ParameterEstimate estimate(settings);
