@@ -1,6 +1,6 @@
 // How right free bodies move, and what a hand feels from them, against closed forms.
 //
-//     credibility [--only=friction|spin|hand|slowed|joints|crowd|soft]
+//     credibility [--only=friction|spin|rolling|hand|slowed|joints|crowd|soft]
 //
 // Writes the file that TACTUS_BENCH_JSON names (build/bench/credibility.json otherwise): CASE.ours and, where
 // there is a closed form, CASE.right, in SI units, and what is a figure by itself. ./run bench credibility
@@ -23,6 +23,8 @@ int main(int count, char** arguments) {
         bench::measure_friction(results);
     if (part("spin"))
         bench::measure_spin(results);
+    if (part("rolling"))
+        bench::measure_rolling_bodies(results);
     if (part("hand"))
         bench::measure_hand(results);
     if (part("slowed"))

@@ -1,6 +1,7 @@
 // Bodies that roll: contacts that are kept from step to step do not drive them (world_state.cpp).
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
@@ -62,6 +63,59 @@ TEST(Rolling, ACartOnFourWheelsGoesAsFastAsItsMassSays) {
         }
         const double right = force * seconds / (chassis_mass + 4.0 * 1.5 * wheel_mass);
         EXPECT_NEAR(world.linear_velocity(chassis).x - before, right, 0.01 * right) << force << " N";
+    }
+}
+
+// A box of half height h rocks on a cylinder of radius R that does not turn: w^2 = m g (R - h) / (I + m h^2).
+TEST(Rolling, ABoxOnARoundBodyRocksNoFartherAndAtItsPeriod) {
+    constexpr double radius = 0.1, half_height = 0.05, half_width = 0.1, angle = 0.1;
+    PhysicsWorld world;
+    BodyDescription round = wheel(radius, {0.0, -radius, 0.0}, 1.0);
+    round.shapes = one(CylinderShape{radius, 0.2});
+    round.motion = Motion::Static;
+    add(world, round);
+    const Vec3 normal(std::sin(angle), std::cos(angle), 0.0);
+    const Vec3 along(normal.y, -normal.x, 0.0);
+    BodyDescription rocking = box({2.0 * half_width, 2.0 * half_height, 0.1}, Vec3(0.0), 0.5);
+    rocking.pose.position =
+        Vec3(0.0, -radius, 0.0) + (radius + half_height) * normal - radius * angle * along;
+    rocking.pose.rotation = glm::angleAxis(-angle, Vec3(0.0, 0.0, 1.0));
+    rocking.can_sleep = false;
+    const BodyId id = add(world, rocking);
+    double before = angle, most = 0.0, first = 0.0, last = 0.0;
+    int crossings = 0;
+    for (int i = 0; i < 10'000; ++i) {
+        world.step(tick);
+        const Quat turned = world.pose(id).rotation;
+        const double now = -2.0 * std::atan2(turned.z, turned.w);
+        if (before * now < 0.0) {
+            (crossings++ == 0 ? first : last) = i * tick;
+            most = 0.0;
+        }
+        most = std::max(most, std::abs(now));
+        before = now;
+    }
+    const double moment = (half_width * half_width + half_height * half_height) / 3.0;
+    const double right = 2.0 * std::numbers::pi *
+                         std::sqrt((moment + half_height * half_height) / (9.81 * (radius - half_height)));
+    EXPECT_NEAR(2.0 * (last - first) / (crossings - 1), right, 0.01 * right);
+    EXPECT_NEAR(most, angle, 0.02 * angle);
+}
+
+// Cans on each other tremble, and turn a little. Their contacts are kept as those of boxes are.
+TEST(Rolling, CansThatStandOnEachOtherKeepStanding) {
+    for (const double radius : {0.01, 0.03}) {
+        PhysicsWorld world;
+        add(world, ground());
+        BodyId top;
+        for (int i = 0; i < 10; ++i) {
+            BodyDescription can = ball(radius, {0.0, 2.0 * radius * (i + 0.5), 0.0}, 0.3);
+            can.shapes = one(CylinderShape{radius, radius});
+            can.can_sleep = false;
+            top = add(world, can);
+        }
+        run(world, 10'000);
+        EXPECT_GT(world.center_of_mass(top).y, 2.0 * radius * 9.4) << radius;
     }
 }
 

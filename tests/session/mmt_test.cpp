@@ -349,17 +349,25 @@ TEST(Mmt, PlacesThatAreSeenRoughlyAreNotFelt) {
     EXPECT_LT(figures.at("force_error_mean_N"), 0.1) << "as far as it is known, chance is not followed";
 }
 
-// A pose that no hinge allows would be torn back by the joint, and the box would begin to turn.
+// A pose that no hinge allows would be torn back by the joint, and the box would begin to turn. What one
+// run of the noise gives differs by a factor of four, so the mean of eight counts.
 TEST(Mmt, AHingeThatIsSeenRoughlyIsNotTornAway) {
     TeleopScene hinged = scene(true);
     hinged.hinges.push_back({1, {0.0, 0.075, 0.1}, {0.0, 1.0, 0.0}});
     TeleopCase rough = wrong_box(100.0);
     rough.pose_noise = 1e-3;
-    const TeleopFigures figures = run_teleop(hinged, rough);
+    constexpr int seeds = 8;
+    double force_error = 0.0, box_error = 0.0;
+    for (int seed = 1; seed <= seeds; ++seed) {
+        rough.seed = static_cast<std::uint64_t>(seed);
+        const TeleopFigures figures = run_teleop(hinged, rough);
+        force_error += figures.at("force_error_mean_N") / seeds;
+        box_error += figures.at("box_position_error_max_mm") / seeds;
+    }
     rough.settings.correction = Correction::none;
     const TeleopFigures never = run_teleop(hinged, rough);
-    EXPECT_LT(figures.at("force_error_mean_N"), 0.6 * never.at("force_error_mean_N"));
-    EXPECT_LT(figures.at("box_position_error_max_mm"), 6.0);
+    EXPECT_LT(force_error, 0.5 * never.at("force_error_mean_N"));
+    EXPECT_LT(box_error, 6.0);
 }
 
 // The path touches the box from 2 s to 3 s of its turn.

@@ -23,6 +23,9 @@ UNITS = {
     "free_rotation.flip": "s",
     "top.precession": "rad/s",
     "top.precession_100": "rad/s",
+    "turntable.rate": "rad/s",
+    "rocking.period": "s",
+    "rocking.swing_20s": "rad",
     "damping.way_10": "m",
     "damping.way_100": "m",
     "cradle.speed": "m/s",
@@ -62,6 +65,7 @@ FIGURES = {
     "door.energy_10s_20rad_s": ("20 rad/s", "%"),
     "pendulum90.energy_60s": ("energy of a pendulum of 90 degrees after 60 s", "%"),
     "stack20.stands_s": ("20 boxes stand (of 120 s)", "s"),
+    "cans10.stands_s": ("10 cans of 60 × 100 mm stand (of 60 s)", "s"),
     "heavy_top.stands_s": ("five boxes, the top of 100 times the mass, stand (of 20 s)", "s"),
 }
 TITLES = {
@@ -75,6 +79,9 @@ TITLES = {
     "free_rotation.flip": "box about its middle axis: from one flip to the next",
     "top.precession": "top at 200 rad/s: precession",
     "top.precession_100": "top at 100 rad/s: precession",
+    "turntable.rate": "ball that rolls on a table turning at 5 rad/s: rate of its circle",
+    "rocking.period": "box of 200 × 100 mm that rocks on a still cylinder of 100 mm radius by 0.05 rad: period",
+    "rocking.swing_20s": "… its swing after 20 s",
     "damping.way_10": "way of a body damped by 10/s",
     "damping.way_100": "way of a body damped by 100/s",
     "cradle.speed": "Newton's cradle of five: speed of the last",

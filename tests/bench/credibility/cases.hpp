@@ -135,6 +135,7 @@ private:
 
 void measure_friction(Results& results);
 void measure_spin(Results& results);
+void measure_rolling_bodies(Results& results);
 void measure_hand(Results& results);
 void measure_slowed(Results& results);
 void measure_joints(Results& results);
