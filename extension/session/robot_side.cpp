@@ -170,8 +170,8 @@ Vec3 RobotSide::hand_of(Pointer& pointer, const SessionLoop::ProxySlot& slot, co
         in.is_exact = pointer.playing == Playing::exact || pointer.playing == Playing::guessed;
         if (settings().passivity != Passivity::wave_variables) {
             const Vec3 velocity = slot.hand_velocity / robot.workspace.scale;
-            const double spared = glm::length(friction_of(body_of(robot.capabilities), velocity)) + unseen;
-            in.coupled = {coupling.stiffness, spared / coupling.stiffness, slot.hand};
+            const double friction = glm::length(friction_of(body_of(robot.capabilities), velocity));
+            in.coupled = {coupling.stiffness, friction, unseen, pointer.contact, slot.hand};
         }
         return pointer.passivity.hand(settings().passivity, settings().passive, in);
     }

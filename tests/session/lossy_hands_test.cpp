@@ -56,6 +56,20 @@ TEST(LossyHands, AHandThatComesBackInsideABodyPressesNothing) {
     }
 }
 
+// It is given no force meanwhile: the far hand presses by a newton, a robot by what its friction is not known
+// by besides.
+TEST(LossyHands, AHandWhoseClutchIsHeldHardlyPresses) {
+    for (const LossyHand hand : {LossyHand::fingertip, LossyHand::tool, LossyHand::robot}) {
+        for (const bool is_direct : {false, true}) {
+            SCOPED_TRACE(std::to_string(static_cast<int>(hand)) + (is_direct ? ", direct" : ", model"));
+            const AbsentFigures figures = run_absent(hand, Absence::clutch, is_direct);
+            EXPECT_GT(figures.pressed, 3.5);
+            EXPECT_LT(figures.away, hand == LossyHand::robot ? 1.9 : 1.2);
+            EXPECT_NEAR(figures.lasting, figures.pressed, 0.1 * figures.pressed);
+        }
+    }
+}
+
 // The far hand is led straight on, into the post. A robot cannot begin elsewhere: its mass comes to a stop
 // there, and what is left is what its friction is not known by.
 TEST(LossyHands, AHandThatGoesAroundABodyDuringAnOutagePressesNothing) {

@@ -94,6 +94,69 @@ TEST(RobotSide, NoSchemeMakesMoreEnergyThanItsStoresThroughARobot) {
     }
 }
 
+// A box that the robot pushes back and forth with its side.
+TeleopScene box_scene() {
+    TeleopScene made = scene();
+    made.bodies[0].addition.description.pose.position.y = -0.07;
+    shared::TeleopBody box;
+    box.name = "Box";
+    box.addition.description.shapes = {{BoxShape{Vec3(0.012)}, Pose{}}};
+    box.addition.description.pose.position = {0.0, -0.008, 0.0};
+    box.addition.description.motion = Motion::Dynamic;
+    box.addition.description.mass = 0.3;
+    box.addition.description.material.friction = 0.4;
+    box.addition.touch_material.stiffness = 500.0;
+    made.bodies.push_back(box);
+    made.path = KeyframePath{{{0, {-0.03, -0.008, 0.0}},
+                              {500'000'000, {-0.03, -0.008, 0.0}},
+                              {1'500'000'000, {0.012, -0.008, 0.0}},
+                              {2'000'000'000, {0.012, -0.008, 0.0}},
+                              {3'000'000'000, {-0.03, -0.008, 0.0}}},
+                             PathInterpolation::linear,
+                             false};
+    return made;
+}
+
+// With small stores and with large ones (those of docs/teleoperation.md that are tuned).
+TEST(RobotSide, NoSchemeMakesMoreEnergyThanItsStoresAtABox) {
+    LinkConditions clean, bad;
+    bad.jitter = 5'000'000;
+    bad.burst = bursts(0.2, 20);
+    double pushed = 0.0;
+    for (const Passivity scheme :
+         {Passivity::wave_variables, Passivity::time_domain, Passivity::two_layers}) {
+        for (const bool is_large : {false, true}) {
+            for (const LinkConditions& line : {clean, bad}) {
+                for (const double delay : {0.0, 0.05, 0.2, 0.5}) {
+                    TeleopCase one = robot_case(delay);
+                    one.settings.passivity = scheme;
+                    PassivitySettings& passive = one.settings.passive;
+                    if (is_large) {
+                        passive.reserve = 0.0078;
+                        passive.far_store = 0.0923;
+                        passive.tank = 0.047;
+                        passive.drift_rate = 1.09;
+                    }
+                    for (LinkConditions* const way : {&one.forth, &one.back}) {
+                        const Nanoseconds keeps = way->delay;
+                        *way = line;
+                        way->delay = keeps;
+                    }
+                    const double store = scheme == Passivity::wave_variables ? 1e-4
+                                         : scheme == Passivity::time_domain
+                                             ? passive.reserve + passive.far_store
+                                             : passive.reserve + passive.far_store + passive.tank;
+                    TeleopFigures figures = run_teleop(box_scene(), one);
+                    EXPECT_LE(figures["link_energy_created_J"], store)
+                        << static_cast<int>(scheme) << (is_large ? " large " : " small ") << delay;
+                    pushed = std::max(pushed, std::abs(figures["energy_at_far_side_J"]));
+                }
+            }
+        }
+    }
+    EXPECT_GT(pushed, 5e-3) << "the box is pushed";
+}
+
 // Scenario 5: what a camera has found at the far side makes the operator's model, and follows what the camera
 // sees, though nothing is simulated there.
 TEST(RobotSide, TellsWhatIsKnownOfItsPlace) {

@@ -26,11 +26,10 @@ constexpr Nanoseconds tick_length = 1'000'000;
 constexpr double radius = 0.01;  // of the fingertip, and half of the tool's height (unit: meters)
 constexpr int settled = 1000, longest_meeting = 20'000, runs_down = 6, rest = 300;  // (unit: ticks)
 
-// Its upper side is at y = 0.
-BodyAddition plate() {
+BodyAddition plate(double top = 0.0) {
     BodyAddition made;
     made.description.shapes = {PlacedShape{BoxShape{{0.5, 0.005, 0.5}}, Pose{}}};
-    made.description.pose.position = {0.0, -0.005, 0.0};
+    made.description.pose.position = {0.0, top - 0.005, 0.0};
     made.description.motion = Motion::Static;
     made.touch_material = {500.0, 0.0, 0.5, 0.4};
     return made;
@@ -57,10 +56,11 @@ Workspace workspace() {
     return workspace;
 }
 
-TeleopSettings settings_of(LossyHand hand) {
+TeleopSettings settings_of(const LossyCase& one) {
     TeleopSettings settings;
     settings.deadband.enabled = true;
-    settings.robot = hand == LossyHand::robot;
+    settings.robot = one.hand == LossyHand::robot;
+    settings.traditional = one.is_direct;
     return settings;
 }
 
@@ -126,6 +126,12 @@ public:
                 device_.connected = is_there;
                 return;
             }
+            if (absence == Absence::clutch) {
+                Workspace held = workspace();
+                held.clutch = !is_there;
+                near_.set_workspace(is_tool() ? tool_.device : pointer_.device, held);
+                return;
+            }
             if (absence == Absence::another_device && !is_there) {
                 other_device_.position.y = motion.press - 0.005;
                 pointer_.device = tool_.device = near_.add_device(other_device_, workspace()).handle;
@@ -171,7 +177,7 @@ public:
 private:
     void begin(Session& session, Side side, std::uint64_t epoch, Link& link,
                const std::shared_ptr<TeleopPort>& port) const {
-        const TeleopSettings settings = settings_of(one_.hand);
+        const TeleopSettings settings = settings_of(one_);
         EndpointSettings end = endpoint(side, epoch);
         end.scenario = scenario_of(settings);
         const auto kind = side == Side::operator_side ? SidePlan::Kind::operator_side
@@ -325,12 +331,15 @@ LossyFigures run_lossy(const LossyCase& one, std::uint64_t seed) {
     return LossyRun(one, seed).run();
 }
 
-AbsentFigures run_absent(LossyHand hand, Absence absence) {
+AbsentFigures run_absent(LossyHand hand, Absence absence, bool is_direct) {
     LossyCase one;
     one.hand = hand;
+    one.is_direct = is_direct;
     one.conditions.delay = from_seconds(0.025);
     one.presses = true;
-    return LossyRun(one, 1).run_absent(absence);
+    // A robot that is to press reaches less deep.
+    const bool is_higher = hand == LossyHand::robot && absence == Absence::clutch;
+    return LossyRun(one, 1, plate(is_higher ? 0.02 : 0.0)).run_absent(absence);
 }
 
 AroundFigures run_around(LossyHand hand, double outage) {

@@ -19,6 +19,7 @@ struct LossyCase {
     LinkConditions conditions;  // both ways
     double outage = 0.0;        // nothing gets through for so long, once in each second run (unit: seconds)
     bool presses = false;       // else it stops above the plate
+    bool is_direct = false;     // without a model
 };
 
 struct LossyFigures {
@@ -36,15 +37,15 @@ LossyFigures run_lossy(const LossyCase& one, std::uint64_t seed);
 
 // The operator's hand presses and goes while it does: its pointer is switched off, or its device is gone.
 // Half a second later it is there again, inside the plate. Or another device takes its place at once, deeper
-// in the plate.
-enum class Absence : std::uint8_t { pointer, device, another_device };
+// in the plate. Or its clutch is held, so that it is there and is given no force.
+enum class Absence : std::uint8_t { pointer, device, another_device, clutch };
 struct AbsentFigures {
     double pressed = 0.0;  // by the far hand, before (unit: newtons)
     double away = 0.0;     // by it, when the hand has been away for 0.5 s (unit: newtons)
     LossyFigures back;     // from then on, for two seconds
     double lasting = 0.0;  // by it, the most in the second of them (unit: newtons)
 };
-AbsentFigures run_absent(LossyHand hand, Absence absence);
+AbsentFigures run_absent(LossyHand hand, Absence absence, bool is_direct = false);
 
 // The operator's hand goes around a post, touching nothing, while nothing gets through for a time (unit:
 // seconds).

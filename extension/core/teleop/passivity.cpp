@@ -185,6 +185,7 @@ Vec3 FarPassivity::hand(Passivity scheme, const PassivitySettings& settings, con
         operator_hand_ = own_ = in.hand;
         operator_force_ = in.force;
         sample_ = in.sample;
+        tip_ = in.coupled.tip;
     }
     const Vec3 before = own_;
     if (scheme == Passivity::none) {
@@ -202,16 +203,19 @@ Vec3 FarPassivity::hand(Passivity scheme, const PassivitySettings& settings, con
             own_ += yielding_way(settings, in);
         } else {
             const Vec3 way = in.hand - own_;
-            own_ += way + too_far(in, way, std::max(0.0, tank_ + settings.far_store));
+            const double left = tank_ + settings.far_store;
+            own_ += way + too_far(in, way, in.coupled.stiffness > 0.0 ? left : std::max(0.0, left));
         }
         // What a spring is asked to store is paid as if the robot's drive got there in this tick.
         const double given = in.coupled.stiffness > 0.0 ? in.coupled.stored(own_) - in.coupled.stored(before)
                                                         : -glm::dot(in.own_force, own_ - before);
-        out_ += std::max(0.0, given);
+        const double unseen = in.coupled.done_unseen(tip_);
+        out_ += std::max(0.0, given) + unseen;
         taken_ += std::max(0.0, -given);
         // Of what is taken in here, the operator's end gets its share.
-        tank_ -= given > 0.0 ? given : (1.0 - settings.shared) * given;
+        tank_ -= unseen + (given > 0.0 ? given : (1.0 - settings.shared) * given);
     }
+    tip_ = in.coupled.tip;
     operator_hand_ = in.hand;
     operator_force_ = in.force;
     sample_ = in.sample;
@@ -260,13 +264,16 @@ Vec3 FarPassivity::yielding_way(const PassivitySettings& settings, const In& in)
     return way + (in.coupled.stiffness > 0.0 ? yield : shortened(yield, most));
 }
 
-// What a way must be changed by so that no more than `left` is given (unit: joules).
+// What a way must be changed by so that no more than `left` is given (unit: joules). Below zero: a robot that
+// touches has done more than that, and is led by no more than its friction.
 Vec3 FarPassivity::too_far(const In& in, const Vec3& way, double left) const {
     const Coupled& coupled = in.coupled;
     if (coupled.stiffness > 0.0) {
         const double energy = coupled.stored(own_) + std::max(0.0, left);
         const Vec3 extension = own_ + way - coupled.tip;
-        const double most = coupled.spared + std::sqrt(2.0 * energy / coupled.stiffness);
+        const bool owes = left < 0.0 && coupled.touches();
+        const double spared = owes ? coupled.friction / coupled.stiffness : coupled.spared();
+        const double most = spared + std::sqrt(2.0 * energy / coupled.stiffness);
         return shortened(extension, most) - extension;
     }
     const double size = glm::length(in.own_force);
@@ -278,8 +285,13 @@ Vec3 FarPassivity::too_far(const In& in, const Vec3& way, double left) const {
 }
 
 double FarPassivity::Coupled::stored(const Vec3& target) const {
-    const double extension = std::max(0.0, glm::distance(target, tip) - spared);
+    const double extension = std::max(0.0, glm::distance(target, tip) - spared());
     return 0.5 * stiffness * extension * extension;
+}
+
+double FarPassivity::Coupled::done_unseen(const Vec3& tip_before) const {
+    const double size = glm::length(contact);
+    return touches() ? std::max(0.0, glm::dot(contact, tip_before - tip)) * (unseen / size) : 0.0;
 }
 
 }  // namespace tactus

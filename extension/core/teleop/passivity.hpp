@@ -37,6 +37,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <glm/geometric.hpp>
 #include <optional>
 
 #include "core/math/types.hpp"
@@ -139,13 +140,20 @@ private:
 class FarPassivity {
 public:
     // Time domain, two layers: the far hand is the target of a spring that leads a robot's tip. Its energy is
-    // that of the part of its extension e beyond what friction takes, k e^2 / 2.
+    // that of the part of its extension e beyond what friction takes, k e^2 / 2. Friction is known up to
+    // `unseen` alone: a contact force that is larger than it is none, and then `unseen` of it does work, too.
     struct Coupled {
         double stiffness = 0.0;  // k (unit: newtons per meter); 0: the far hand is led itself
-        double spared = 0.0;     // extension that friction takes (unit: meters), >= 0
+        double friction = 0.0;   // (unit: newtons), >= 0
+        double unseen = 0.0;     // (unit: newtons), >= 0
+        Vec3 contact{0.0};       // on the tip (unit: newtons)
         Vec3 tip{0.0};           // (unit: meters)
 
-        double stored(const Vec3& target) const;  // (unit: joules)
+        double spared() const { return (friction + unseen) / stiffness; }  // (unit: meters)
+        double stored(const Vec3& target) const;                           // (unit: joules)
+        bool touches() const { return glm::dot(contact, contact) > unseen * unseen; }
+        // By `unseen`, on the way from where the tip was (unit: joules).
+        double done_unseen(const Vec3& tip_before) const;
     };
 
     struct In {
@@ -184,6 +192,7 @@ private:
     Vec3 operator_hand_{0.0};  // one tick ago
     Vec3 operator_force_{0.0};
     Vec3 own_{0.0};             // where the far hand is
+    Vec3 tip_{0.0};             // one tick ago, see Coupled
     double operator_in_ = 0.0;  // taken in at the operator's end, as heard (unit: joules)
     double out_ = 0.0;          // given to the environment (unit: joules)
     double tank_ = 0.0;
