@@ -6,6 +6,7 @@
 #include <godot_cpp/variant/dictionary.hpp>
 #include <godot_cpp/variant/typed_array.hpp>
 #include <tuple>
+#include <utility>
 
 #include "nodes/conversions.hpp"
 #include "nodes/tree_walk.hpp"
@@ -44,11 +45,20 @@ std::vector<CloseShape> close_shapes(const TypedArray<Dictionary>& hits) {
 
 }  // namespace
 
+// Godot's physics may run in a thread of its own, where a query meets the sphere as it is there by then. What
+// returns a value waits for all that was sent before.
+void CloseShapes::set_radius(double radius) {
+    if (std::exchange(radius_, radius) != radius) {
+        sphere_->set_radius(static_cast<real_t>(radius));
+        PhysicsServer3D::get_singleton()->shape_get_type(sphere_->get_rid());
+    }
+}
+
 void CloseShapes::look(PhysicsDirectSpaceState3D& space, const Vec3& hand, double radius) {
     query_->set_transform(Transform3D(Basis(), to_godot(hand)));
     std::vector<CloseShape> shapes;
     for (int i = 0; i < max_looks; ++i) {
-        sphere_->set_radius(static_cast<real_t>(radius));
+        set_radius(radius);
         query_->set_exclude(crowds_);
         shapes = close_shapes(space.intersect_shape(query_, max_shapes));
         if (shapes.size() < max_shapes) {

@@ -32,10 +32,12 @@ public:
     bool is_full() const { return is_full_; }
 
 private:
+    void set_radius(double radius);
     void look(godot::PhysicsDirectSpaceState3D& space, const Vec3& hand, double radius);
     bool set_crowds_apart(const std::vector<CloseShape>& shapes);
 
     godot::Ref<godot::SphereShape3D> sphere_;  // null until it is needed
+    double radius_ = 0.0;                      // of the sphere, as Godot's physics has it (unit: meters)
     godot::Ref<godot::PhysicsShapeQueryParameters3D> query_;
     std::vector<CloseShape> found_;
     godot::TypedArray<godot::RID> crowds_;  // bodies that are found already, and often

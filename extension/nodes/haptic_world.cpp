@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <godot_cpp/classes/engine.hpp>
 #include <godot_cpp/classes/project_settings.hpp>
+#include <godot_cpp/classes/rigid_body3d.hpp>
 #include <godot_cpp/classes/scene_tree.hpp>
 #include <godot_cpp/core/error_macros.hpp>
+#include <godot_cpp/variant/callable_method_pointer.hpp>
 #include <godot_cpp/variant/packed_float64_array.hpp>
 
 #include "nodes/body_reading.hpp"
@@ -43,6 +45,9 @@ constexpr double shortest_way = 1e-3;
 
 // That wake-ups of a loop without a force may be put off by, for the processor's rest (unit: nanoseconds).
 constexpr Nanoseconds relaxed_slack = 50'000;
+
+// HapticWorld::hold_arrived() is to be called in this frame.
+bool is_hold_posted = false;
 
 double project_number(const char* name, double otherwise) {
     return ProjectSettings::get_singleton()->get_setting(name, otherwise);
@@ -367,8 +372,31 @@ void HapticWorld::node_added(const Variant& added) {
     auto* const node = object_in<Node>(added);
     if (node != nullptr && run_ != nullptr) {
         run_->node_added(*node);
+        if (Object::cast_to<RigidBody3D>(node) != nullptr && !run_->engine_moves() &&
+            !std::exchange(is_hold_posted, true)) {
+            callable_mp_static(&HapticWorld::hold_arrived).call_deferred();
+        }
         if (authority_ == AUTHORITY_AUTOMATIC && !run_->engine_moves()) {
             arrivals_.push_back(node->get_instance_id());
+        }
+    }
+}
+
+// When scripts have added all that they add in this frame, and before Godot's next step. Whether Godot is to
+// move the bodies is known by then: held and let go, they would go on otherwise than without a world.
+void HapticWorld::hold_arrived() {
+    is_hold_posted = false;
+    std::vector<std::uint64_t> worlds;
+    for (const HapticWorld* const world : Roll<HapticWorld>::all()) {
+        worlds.push_back(world->get_instance_id());
+    }
+    for (const std::uint64_t id : worlds) {
+        auto* const world = node_of_id<HapticWorld>(id);
+        if (world != nullptr && world->authority_ == AUTHORITY_AUTOMATIC) {
+            world->catch_up();
+        }
+        if (world != nullptr && world->run_ != nullptr) {
+            world->run_->hold_arrived();
         }
     }
 }

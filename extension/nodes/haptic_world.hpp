@@ -135,6 +135,7 @@ private:
     bool may_choose_godot() const;
     bool chooses_godot();
     void look_at_arrivals();
+    static void hold_arrived();
     void catch_up();
     std::unique_ptr<InputRecording> record_inputs(const SessionSettings& settings);
     void start_loop();

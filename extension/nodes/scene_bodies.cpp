@@ -23,20 +23,25 @@ void SceneBodies::scene_changed(Node& node, bool comes) {
     if (const Node* parent = node.get_parent(); parent != nullptr && is_solid_body(parent)) {
         mirrors_.news()->changed.push_back(parent->get_instance_id());
     }
-    if (auto* rigid = Object::cast_to<RigidBody3D>(&node); rigid != nullptr && !scene_.engine_moves) {
-        hold_until_found(*rigid, comes);
+    auto* const rigid = Object::cast_to<RigidBody3D>(&node);
+    if (rigid == nullptr || scene_.engine_moves) {
+        return;
+    }
+    const std::uint64_t id = node.get_instance_id();
+    if (comes && scene_.world.is_ancestor_of(rigid)) {
+        arrived_.insert(id);
+    } else if (!comes && arrived_.erase(id) == 0 && held_.erase(id) > 0) {
+        hold_still(*rigid, false);
     }
 }
 
-// The engine's own physics may step several times before the next synchronise(): the body would begin in the
-// session with a place and a velocity that nothing there has given it.
-void SceneBodies::hold_until_found(RigidBody3D& body, bool comes) {
-    if (comes && scene_.world.is_ancestor_of(&body)) {
-        say_passed_over(body);  // as the script has made it: a body that is held sleeps
-        hold_still(body, true);
-        arriving_.insert(body.get_instance_id());
-    } else if (!comes && arriving_.erase(body.get_instance_id()) > 0) {
-        hold_still(body, false);
+void SceneBodies::hold_arrived() {
+    for (const std::uint64_t id : std::exchange(arrived_, {})) {
+        if (const auto* const body = node_of_id<RigidBody3D>(id)) {
+            say_passed_over(*body);  // as the script has made it: a body that is held sleeps
+            hold_still(*body, true);
+            held_.insert(id);
+        }
     }
 }
 
@@ -78,7 +83,8 @@ void SceneBodies::find(Session& session) {
         return std::make_unique<GodotJoint>(*node_of_id<Joint3D>(id), scene_.engine_moves, scene_.complaints);
     };
     mirrors_.match(bodies, make_body, joints, make_joint, session);
-    arriving_.clear();
+    arrived_.clear();
+    held_.clear();
 }
 
 void SceneBodies::synchronise(MirrorContext context) {
@@ -126,7 +132,7 @@ std::uint64_t SceneBodies::node_of(SessionHandle body) const {
 }
 
 void SceneBodies::release(Session& session) {
-    for (const std::uint64_t id : std::exchange(arriving_, {})) {
+    for (const std::uint64_t id : std::exchange(held_, {})) {
         if (const auto* body = node_of_id<RigidBody3D>(id)) {
             hold_still(*body, false);
         }

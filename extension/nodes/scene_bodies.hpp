@@ -32,6 +32,9 @@ public:
     }
     void release(Session& session) override;
 
+    // Godot's own physics is about to step, maybe several times before the next synchronise(): a body that
+    // has come would begin in the session with a place and a velocity that nothing there has given it.
+    void hold_arrived();
     // Brings the session up to date with all that stands below the world.
     void synchronise(MirrorContext context);
     // Godot's own physics moves the bodies and is about to step; what is close to hands is found here.
@@ -45,15 +48,15 @@ public:
 
 private:
     void find(Session& session);
-    void hold_until_found(godot::RigidBody3D& body, bool comes);
     void say_passed_over(const godot::Node& node);
 
     GodotScene scene_;
     BodyMirrors mirrors_;
     CloseShapes close_;
     ServerBodies server_bodies_;
-    std::unordered_set<std::uint64_t> arriving_;  // rigid bodies that no mirror has yet, held still
-    std::vector<std::uint64_t> others_;           // nodes that have come and are none of ours
+    std::unordered_set<std::uint64_t> arrived_;  // rigid bodies that no mirror has yet
+    std::unordered_set<std::uint64_t> held_;     // likewise, held still
+    std::vector<std::uint64_t> others_;          // nodes that have come and are none of ours
     bool is_first_look_ = true;
     bool tree_changed_ = true;
 };

@@ -64,6 +64,8 @@ public:
 
     // A node has come; one is about to go.
     void node_added(godot::Node& node) { view().scene_changed(node, true); }
+    // Bodies that have come so far are Godot's no more, if this is to move them.
+    void hold_arrived() { bodies_.hold_arrived(); }
     void node_removed(godot::Node& node);
     // The recorder is about to close its files: gives it what is there, then lets it go.
     void finish(HapticRecorder& recorder);
