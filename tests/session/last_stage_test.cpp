@@ -135,6 +135,38 @@ TEST(LastStage, TheHandsOwnMotionIsFeltAtOnce) {
     }
 }
 
+// What keeps direct touch passive acts at once, and counts as explained. Where damping begins and ends in the
+// time domain and with two layers, a hand that goes up and down smoothly feels larger steps.
+TEST(LastStage, ThePassivityOfADirectLinkMakesBoundedSteps) {
+    const std::pair<Passivity, double> most_of_schemes[] = {
+        {Passivity::wave_variables, 0.05}, {Passivity::time_domain, 1.1}, {Passivity::two_layers, 1.7}};
+    for (const auto& [scheme, most] : most_of_schemes) {
+        for (const double delay : {0.0, 0.05, 0.2}) {
+            TeleopSettings settings;
+            settings.traditional = true;
+            settings.passivity = scheme;
+            LinkedPlaces places(delay, 0.0, 1, settings, settings);
+            places.add(ground());
+            places.settle();
+            HeldDevice& hand = places.near.devices[0];
+            hand.position = {0.0, 0.03, 0.0};
+            places.ticks(800);
+            double largest = 0.0, pressed = 0.0;
+            for (int i = 0; i < 6000; ++i) {
+                const double angle = 6.283185 * 0.5e-3 * i;
+                hand.position.y = 0.01 + 0.02 * std::cos(angle);
+                hand.velocity.y = -0.02 * 6.283185 * 0.5 * std::sin(angle);
+                const Vec3 before = hand.force;
+                places.tick();
+                largest = std::max(largest, glm::distance(before, hand.force));
+                pressed = std::max(pressed, glm::length(hand.force));
+            }
+            EXPECT_LE(largest, most) << static_cast<int>(scheme) << " " << delay;
+            EXPECT_GT(pressed, 2.0) << static_cast<int>(scheme) << " " << delay;
+        }
+    }
+}
+
 TEST(LastStage, TheStatisticIsThatOfWhatLeft) {
     StillHand hand(0.05, box(0.3), {0.0, 0.1, 0.0}, {0.0, 0.05, 0.0});
     EXPECT_LE(hand.statistics().largest_unexplained_step, most_unexplained);
