@@ -486,7 +486,7 @@ std::vector<std::string> WorldRun::problems() const {
     if (std::string slow = problem_of_time(); !slow.empty()) {
         all.push_back(std::move(slow));
     }
-    if (model_ != nullptr && model_->body_count() > 0) {
+    if (model_ != nullptr && model_->body_count() > 0 && running_->links().front()->is_described()) {
         for (const Node* const body : model_->bodies_only_here()) {
             all.push_back(from_godot(name_of(*body)) + ": " + only_here);
         }

@@ -417,6 +417,10 @@ WorldLink::Standing WorldLink::standing_of_peer() const {
     return {LinkState::connected, text};
 }
 
+bool WorldLink::is_described() const {
+    return port_->statistics.front().description == FirstDescription::whole;
+}
+
 // No hand touches a model that lacks what is there.
 std::string WorldLink::unfinished_model() const {
     const TeleopStatistics& teleop = port_->statistics.front();

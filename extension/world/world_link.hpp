@@ -96,6 +96,8 @@ public:
         builder_->set_distortion(std::move(distortion));
     }
     const std::vector<ModelObject>& objects() const { return builder_->objects(); }
+    // Operator: the far side has told all that it had.
+    bool is_described() const;
 
     // Passes on what has changed on either side. No plan: whoever has set it is gone, and with it the way.
     // True where objects() are other ones.
