@@ -1,7 +1,9 @@
 // How hard an operator's hand may press at the teleoperator where its device is not given the force that it
 // presses with: stopped, ramping up, limited in slew, energy or power, or hidden as a correction. It is
 // `allowed` more than what is displayed. What the largest force of a device, passivity and a leap of touch
-// take from a force is taken from what the hand shall feel, and does not count.
+// take from a force is taken from what the hand shall feel, and does not count. A correction hides forces all
+// the time: one that is told within `patience` does not count either, else the far body would be pushed less
+// than the operator pushes it, and the model would be wrong for being hidden.
 //
 // With a model the hand is sent nearer to its proxy, as far as that force. Without one the operator does not
 // know how deep it is: the sample's force, which means nothing else there, is the bound. Plain values.
@@ -19,11 +21,13 @@ namespace tactus {
 
 class DeniedPress {
 public:
-    static constexpr double allowed = 1.0;  // (unit: newtons)
+    static constexpr double allowed = 1.0;   // (unit: newtons)
+    static constexpr double patience = 0.5;  // (unit: seconds)
 
     struct In {
         double pressed = 0.0;  // that the hand presses with (unit: newtons), >= 0
         double wanted = 0.0;   // of it, for the device (unit: newtons), >= 0
+        double shown = 0.0;    // what corrections leave of that (unit: newtons), >= 0
         double given = 0.0;    // to the device (unit: newtons), >= 0
         double seconds = 0.001;
     };
@@ -31,7 +35,9 @@ public:
     // Once a tick. It changes as the force of a hand that goes or comes.
     void step(const In& in) {
         const double change = PressLimit::slow_rate * in.seconds;
-        is_denied_ = in.wanted - in.given > (is_denied_ ? 0.5 : 1.0) * allowed;
+        const double least = (is_denied_ ? 0.5 : 1.0) * allowed;
+        hidden_for_ = in.wanted - in.shown > least ? hidden_for_ + in.seconds : 0.0;
+        is_denied_ = (hidden_for_ > patience ? in.wanted : in.shown) - in.given > least;
         if (is_denied_) {
             most_ = std::max(in.given + allowed, std::min(most_, in.pressed) - change);
         } else {
@@ -49,6 +55,7 @@ public:
 private:
     bool is_denied_ = false, binds_ = false;
     double most_ = 0.0, share_ = 1.0;
+    double hidden_for_ = 0.0;  // (unit: seconds)
 };
 
 // The hand with this share of its depth, along the force on it.

@@ -100,8 +100,9 @@ void OperatorSide::note_denied(SessionLoop& loop, std::size_t index) {
     const Vec3& pressed = settings().traditional ? pointer.modelled : slot.force;
     const Vec3 wanted =
         pointer.carried.apart() ? limited_force(slot.force, loop.force_limit(slot)) : pointer.modelled;
-    pointer.sent.denied.step(
-        {glm::length(pressed), glm::length(wanted), glm::length(pointer.force), seconds_});
+    const Vec3 shown = limited_force(slot.state.force, loop.force_limit(slot));
+    pointer.sent.denied.step({glm::length(pressed), glm::length(wanted), glm::length(shown),
+                              glm::length(pointer.force), seconds_});
 }
 
 // What the far side needs to do the same: the hand, and what it presses bodies with.

@@ -224,7 +224,7 @@ private:
     Wrench far_wrench(std::size_t index, ToolSlot& slot, bool& changed);
     void feel(SessionLoop& loop, std::size_t index, ToolSlot& slot);
     void hide_changes(Tool& tool, const Wrench& modelled, const ToolSlot& slot, bool changed);
-    void note_denied(Tool& tool, const ToolSlot& slot) const;
+    void note_denied(const SessionLoop& loop, Tool& tool, const ToolSlot& slot) const;
     void send_tool(SessionLoop& loop, std::size_t index, const ToolSlot& slot, Nanoseconds now);
 
     // --- operator_sending.cpp

@@ -255,10 +255,11 @@ void OperatorSide::hide_changes(Tool& tool, const Wrench& modelled, const ToolSl
     }
 }
 
-void OperatorSide::note_denied(Tool& tool, const ToolSlot& slot) const {
+void OperatorSide::note_denied(const SessionLoop& loop, Tool& tool, const ToolSlot& slot) const {
     const Vec3& pressed = settings().traditional ? tool.modelled.force : slot.wrench.force;
-    tool.sent.denied.step(
-        {glm::length(pressed), glm::length(tool.modelled.force), glm::length(tool.given.force), seconds_});
+    const Vec3 shown = limited_force(slot.state.force, loop.force_limit(slot));
+    tool.sent.denied.step({glm::length(pressed), glm::length(tool.modelled.force), glm::length(shown),
+                           glm::length(tool.given.force), seconds_});
 }
 
 // Where the hand would have the tool, whatever its grasp is: the tool at the far side does the same with it.
@@ -266,7 +267,7 @@ void OperatorSide::send_tool(SessionLoop& loop, std::size_t index, const ToolSlo
     Tool& tool = tools_[index];
     const DeviceSample device = loop.device_sample(slot.use.device);
     const Pose& frame = settings().frame;
-    note_denied(tool, slot);
+    note_denied(loop, tool, slot);
     const DeniedPress& denied = tool.sent.denied;
     const bool is_nearer = denied.binds() && !settings().traditional;
     Pose goal = slot.hand.goal;
