@@ -90,7 +90,9 @@ func test_a_model_that_is_described_slowly_is_touched_once_it_is_whole() -> void
 			check_near(_felt(_operator), Vector3.ZERO, 0.0, "force of a model that is not whole")
 			if _here.get_statistics().objects > 0:
 				check(_here.get_state_text().contains("touch nothing until"), _here.get_state_text())
-				check_equal(_operator.get_problems(), PackedStringArray(), "problems of what is still to come")
+				check_equal(
+					_operator.get_problems(), PackedStringArray(), "problems of what is still to come"
+				)
 				seconds_held += 0.01
 	check(seconds_held > 0.1, "the description takes %f s" % seconds_held)
 	check(_here.get_statistics().model_complete, "the model is whole at the end")
