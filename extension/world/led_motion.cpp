@@ -41,6 +41,18 @@ void correct(BodyCorrection& correction, const BodyMotion& truth, const BodyMoti
     correction.angular = truth.angular_velocity - model.angular_velocity;
 }
 
+// The model has had the correction `had` since it was compared, and changed by `change` meanwhile. Of `next`,
+// what takes back of `had` what the model has lost by itself. What hands take from it is no loss: the
+// engine's body will have that, too.
+Vec3 taken_back(const Vec3& next, const Vec3& had, const Vec3& change) {
+    const double size = glm::dot(had, had);
+    if (!(size > 0.0)) {
+        return Vec3(0.0);
+    }
+    const double lost = std::clamp(1.0 - glm::dot(change, had) / size, 0.0, 1.0);
+    return had * -std::clamp(-glm::dot(next, had) / size, 0.0, lost);
+}
+
 }  // namespace
 
 BodyMotion LedMotion::expected() const {
@@ -48,6 +60,23 @@ BodyMotion LedMotion::expected() const {
     return {shifted(before_.motion.pose, sent_.by - in_it.by, turn_by(sent_.turn - in_it.turn, 1.0)),
             before_.motion.linear_velocity + sent_.linear - in_it.linear,
             before_.motion.angular_velocity + sent_.angular - in_it.angular};
+}
+
+void LedMotion::leave_what_is_lost(BodyCorrection& next, const LedState& model) const {
+    const BodyMotion &then = before_.motion, &now = model.motion;
+    const BodyCorrection &had = before_.corrected, &has = model.corrected;
+    const Vec3 by = now.pose.position - then.pose.position - (model.way - before_.way);
+    const Vec3 turn =
+        turn_vector(now.pose.rotation * glm::conjugate(then.pose.rotation)) - (model.turned - before_.turned);
+    next.by -= taken_back(next.by, has.by - had.by, by);
+    next.turn -= taken_back(next.turn, has.turn - had.turn, turn);
+    const Vec3 pushed = before_.mass > 0.0 ? (model.impulse - before_.impulse) / before_.mass : Vec3(0.0);
+    const Vec3 linear = now.linear_velocity - then.linear_velocity - pushed;
+    next.linear -= taken_back(next.linear, has.linear - had.linear, linear);
+    if (model.turn == before_.turn) {
+        const Vec3 angular = now.angular_velocity - then.angular_velocity;
+        next.angular -= taken_back(next.angular, has.angular - had.angular, angular);
+    }
 }
 
 // The model as it was one frame ago had been pushed by what the engine's body shows now. Of `besides`, by
@@ -109,6 +138,7 @@ LedMotion::Frame LedMotion::frame(const BodyMotion& engines, const LedState& mod
         const BodyMotion model_then = expected();
         if (differs(truth, model_then, MotionThreshold{})) {
             correct(correction, truth, model_then);
+            leave_what_is_lost(correction, model);
         }
         const bool was_put_there =
             glm::length(correction.by) > farthest_way + seconds * glm::length(truth.linear_velocity) ||

@@ -22,6 +22,10 @@
 // know: a spring, a wheel, a script. What two frames agree on of it acts on the model from then on; what only
 // one says, an impulse, does not.
 //
+// A joint of the model can undo a correction within the frame, which e then still counts as given. So e takes
+// back of the last correction at most what the model has kept: else the two would change signs for ever, and
+// a chain of bodies would be shaken apart.
+//
 // The part of e that goes with what hands gave is no acceleration but another mass (seen_mass.hpp). As an
 // acceleration it would come two frames late, and make a body swing between two fingers. What the found mass
 // explains is left out of the acceleration: it would count twice.
@@ -54,6 +58,7 @@ public:
 
 private:
     BodyMotion expected() const;
+    void leave_what_is_lost(BodyCorrection& next, const LedState& model) const;
     Vec3 without_mass(const Vec3& besides, bool is_seen);
     void note_unknown(const Vec3& besides, const Vec3& angular, double seconds);
     void note_lead(const LedState& model, double seconds, double tick);

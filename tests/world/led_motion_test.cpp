@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numeric>
@@ -362,6 +363,29 @@ TEST(LedMotion, ABodyThatIsPutElsewhereIsThereAtOnce) {
     rig.push(0.0, 0.001, 0.06);
     EXPECT_NEAR(rig.of_session().pose.position.z, 0.5, 0.005);
     EXPECT_LT(rig.largest_step(), 0.5);
+}
+
+// The engine's body is struck for one frame. In the model a joint holds it, and undoes each correction.
+TEST(LedMotion, WhatAJointUndoesIsNotTakenBack) {
+    constexpr double frame = 1.0 / 60.0, tick = 1e-3;
+    const Vec3 struck(1.0, 0.5, -0.2);
+    LedMotion led;
+    LedState model;
+    double asked = 0.0;
+    for (int i = 0; i < 30; ++i) {
+        BodyMotion engines;
+        if (i == 5) {
+            engines.linear_velocity = engines.angular_velocity = struck;
+        }
+        const BodyCorrection correction = led.frame(engines, model, frame, tick).correction;
+        if (i > 5) {
+            asked = std::max({asked, glm::length(correction.linear), glm::length(correction.angular)});
+        }
+        model.seconds += frame;
+        model.corrected.linear += correction.linear;
+        model.corrected.angular += correction.angular;
+    }
+    EXPECT_LT(asked, 0.01 * glm::length(struck));
 }
 
 }  // namespace
