@@ -432,6 +432,7 @@ void list_classes() {
 
     same<Node* (SceneTree::*)() const>(&SceneTree::get_edited_scene_root);
     same<Window* (SceneTree::*)() const>(&SceneTree::get_root);
+    same<bool (SceneTree::*)() const>(&SceneTree::is_paused);
 
     same<Transform3D (Skeleton3D::*)(int32_t) const>(&Skeleton3D::get_bone_global_pose);
     same<int32_t (Skeleton3D::*)() const>(&Skeleton3D::get_bone_count);
