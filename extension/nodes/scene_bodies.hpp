@@ -55,7 +55,7 @@ private:
     CloseShapes close_;
     ServerBodies server_bodies_;
     std::unordered_set<std::uint64_t> arrived_;  // rigid bodies that no mirror has yet
-    std::unordered_set<std::uint64_t> held_;     // likewise, held still
+    std::unordered_set<std::uint64_t> held_;     // the same, held still by now
     std::vector<std::uint64_t> others_;          // nodes that have come and are none of ours
     bool is_first_look_ = true;
     bool tree_changed_ = true;

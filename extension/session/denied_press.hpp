@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <optional>
-#include <utility>
 
 #include "core/teleop/passivity.hpp"
 #include "session/press_limit.hpp"

@@ -131,12 +131,17 @@ void RobotSide::play(SessionLoop& loop, std::size_t index, const SessionLoop::Pr
     const double left = glm::distance(to_parent(settings().frame, pointer.played.position), slot.hand);
     pointer.returns = hands_.is_outage(index) || (pointer.returns && left > slot.description.settings.radius);
     if (const auto most = most_press(pointer.played, pointer.returns)) {
-        pointer.target = yielding(pointer.target, slot.hand, *most,
-                                  glm::length(friction_of(body, slot.hand_velocity / scale)), coupling);
+        pointer.target =
+            yielding(pointer.target, slot.hand, *most, friction_at(robot, slot.hand_velocity), coupling);
     }
     pointer.passivity.went(pointer.target);
     pointer.velocity = (pointer.target - before) / seconds_;
     pointer.coupling = coupling;
+}
+
+// Of the robot's own motion, at a velocity of the scene (unit: newtons).
+double RobotSide::friction_at(const RobotView& robot, const Vec3& velocity) {
+    return glm::length(friction_of(body_of(robot.capabilities), velocity / robot.workspace.scale));
 }
 
 // After an outage the operator's hand may have gone around what the robot runs into on its straight way. A
@@ -169,9 +174,8 @@ Vec3 RobotSide::hand_of(Pointer& pointer, const SessionLoop::ProxySlot& slot, co
         in.seconds = seconds_;
         in.is_exact = pointer.playing == Playing::exact || pointer.playing == Playing::guessed;
         if (settings().passivity != Passivity::wave_variables) {
-            const Vec3 velocity = slot.hand_velocity / robot.workspace.scale;
-            const double friction = glm::length(friction_of(body_of(robot.capabilities), velocity));
-            in.coupled = {coupling.stiffness, friction, unseen, pointer.contact, slot.hand};
+            in.coupled = {coupling.stiffness, friction_at(robot, slot.hand_velocity), unseen, pointer.contact,
+                          slot.hand};
         }
         return pointer.passivity.hand(settings().passivity, settings().passive, in);
     }

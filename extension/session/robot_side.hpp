@@ -79,6 +79,7 @@ private:
     void receive(SessionLoop& loop);
     void release_hands(SessionLoop& loop);
     static RobotBody body_of(const DeviceCapabilities& robot);
+    static double friction_at(const RobotView& robot, const Vec3& velocity);
     Wall coupling_of(const RobotView& robot) const;
     std::optional<double> most_press(const PointerSample& played, bool returns) const;
     static Vec3 yielding(const Vec3& target, const Vec3& place, double most, double friction,

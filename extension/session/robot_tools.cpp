@@ -97,10 +97,9 @@ void RobotSide::lead(Tool& tool, const ToolSlot& slot, const RobotView& robot) c
         next_target(before.position, tool.wanted.position - tool.target.rotation * grasp.position, speed,
                     robot.workspace.pose.position, robot.capabilities.radius * scale, seconds_);
     if (const auto most_pressed = most_press(tool.played, tool.returns)) {
-        const Vec3 velocity = slot.hand.velocity_at(slot.hand.place) / scale;
+        const double friction = friction_at(robot, slot.hand.velocity_at(slot.hand.place));
         tool.target.position =
-            yielding(tool.target.position, slot.hand.place, *most_pressed,
-                     glm::length(friction_of(body_of(robot.capabilities), velocity)), tool.coupling);
+            yielding(tool.target.position, slot.hand.place, *most_pressed, friction, tool.coupling);
     }
     tool.velocity = (tool.target.position - before.position) / seconds_;
     tool.spin = turn_vector(tool.target.rotation * glm::conjugate(before.rotation)) / seconds_;
