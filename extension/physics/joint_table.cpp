@@ -6,6 +6,7 @@
 #include <Jolt/Physics/Constraints/PointConstraint.h>
 #include <Jolt/Physics/Constraints/SixDOFConstraint.h>
 #include <Jolt/Physics/PhysicsSystem.h>
+#include <Jolt/Physics/StateRecorder.h>
 
 #include <algorithm>
 #include <cmath>
@@ -153,7 +154,8 @@ JointId JointTable::add(const JointDescription& description, JPH::Body& first, J
     vacant->second = second.GetID().GetIndexAndSequenceNumber();
     vacant->bodies_collide = description.bodies_collide;
     vacant->holds_point = holds_point(description);
-    vacant->axis = JointAxis(description, *vacant->constraint);
+    for (std::size_t i = 0; i < vacant->axes.size(); ++i)
+        vacant->axes[i] = JointAxis(description, *vacant->constraint, static_cast<int>(i));
     vacant->described = description;
     vacant->described.frame = compose(inverse(first_pose), description.frame);
     vacant->described.second_frame = compose(inverse(second_pose), second_frame(description));
@@ -177,7 +179,7 @@ void JointTable::remove(Joint& joint) {
     system_.GetBodyInterfaceNoLock().ActivateConstraint(joint.constraint);
     system_.RemoveConstraint(joint.constraint);
     joint.constraint = nullptr;
-    joint.axis = {};
+    joint.axes = {};
     --count_;
     joint.generation = (joint.generation + 1) & (index_mask >> 1);
 }
@@ -205,12 +207,35 @@ void JointTable::begin_step(JointSwing& swing) {
     if (count_ == 0)
         return;
     for (Joint& joint : joints_)
-        joint.axis.drive();
+        for (JointAxis& axis : joint.axes)
+            axis.drive();
     for (const Joint& joint : joints_)
         if (joint.constraint != nullptr && joint.holds_point)
             swing.begin_step(*joint.constraint->GetBody1(), *joint.constraint->GetBody2(),
                              joint.constraint->GetConstraintToBody1Matrix().GetTranslation(),
                              joint.constraint->GetConstraintToBody2Matrix().GetTranslation());
+}
+
+void JointTable::save(JPH::StateRecorder& writer) const {
+    for (const Joint& joint : joints_) {
+        if (joint.constraint == nullptr)
+            continue;
+        std::uint8_t return_bits = 0;
+        for (std::size_t i = 0; i < joint.axes.size(); ++i)
+            return_bits |= static_cast<std::uint8_t>(joint.axes[i].returns() ? 1u << i : 0u);
+        writer.Write(return_bits);
+    }
+}
+
+void JointTable::restore(JPH::StateRecorder& reader) {
+    for (Joint& joint : joints_) {
+        if (joint.constraint == nullptr)
+            continue;
+        std::uint8_t return_bits = 0;
+        reader.Read(return_bits);
+        for (std::size_t i = 0; i < joint.axes.size(); ++i)
+            joint.axes[i].set_returns((return_bits >> i & 1u) != 0);
+    }
 }
 
 void JointTable::join_group(JPH::Body& body) {

@@ -56,6 +56,10 @@ public:
 
     std::size_t count() const { return count_; }
 
+    // What the joints themselves do not hold of their state, of the same joints.
+    void save(JPH::StateRecorder& writer) const;
+    void restore(JPH::StateRecorder& reader);
+
     // Bodies of a joint have the group of their index; those that may not collide are looked up here.
     bool CanCollide(const JPH::CollisionGroup& a, const JPH::CollisionGroup& b) const override;
 
@@ -66,7 +70,7 @@ private:
         JPH::CollisionGroup::GroupID second = 0;
         bool bodies_collide = true;
         bool holds_point = false;  // of both bodies, the same one
-        JointAxis axis;
+        std::array<JointAxis, 6> axes;
         JointDescription described;  // its frames in those of the bodies
         std::uint32_t generation = 0;
 

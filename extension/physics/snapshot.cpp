@@ -52,6 +52,7 @@ std::size_t PhysicsWorld::save_state(std::span<std::byte> memory, bool everythin
                 ++header.bodies;
             }
     system.SaveState(writer, all_but_bodies);
+    impl_->joints.save(writer);
     if (writer.IsFailed())
         return 0;
     std::memcpy(memory.data(), &header, sizeof(header));
@@ -93,6 +94,7 @@ bool PhysicsWorld::restore(std::span<const std::byte> snapshot) {
         impl_->trees.may_differ(id);
     }
     system.RestoreState(reader);
+    impl_->joints.restore(reader);
     return true;
 }
 

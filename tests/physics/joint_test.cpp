@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/math/body_motion.hpp"
 #include "physics/physics_world.hpp"
 #include "scene.hpp"
 #include "support/realtime_audit.hpp"
@@ -437,7 +438,6 @@ struct Rail {
             world.remove_joint(joint);
         }
         JointDescription slider = wanted;
-        slider.kind = JointKind::Slider;
         slider.frame = {};
         slider.second_frame = Pose{};
         joint = world.add_joint(slider, id, BodyId{});
@@ -450,6 +450,7 @@ struct Rail {
 
 JointDescription within(double lower, double upper) {
     JointDescription joint;
+    joint.kind = JointKind::Slider;
     joint.linear[0] = {lower, upper};
     return joint;
 }
@@ -484,6 +485,47 @@ TEST(JointDrive, ALimitThatIsMovedPushesGently) {
     }
     EXPECT_NEAR(std::abs(rail.world.pose(rail.id).position.x), 0.02, 5e-4);
     EXPECT_NEAR(rail.world.linear_velocity(rail.id).x, 0.0, 2e-3);
+}
+
+// The same of a slider that is held at one place, and of each of six axes.
+TEST(JointDrive, EveryLimitThatIsMovedPushesGently) {
+    constexpr double to = 0.05;
+    std::vector<JointDescription> moved;
+    for (const JointRange& range : {JointRange{to, to}, JointRange{to, 0.1}, JointRange{to, 0.05 + 1e-6}}) {
+        moved.push_back(within(range.lower, range.upper));
+        for (std::size_t axis = 0; axis < 6; ++axis) {
+            JointDescription six;
+            six.kind = JointKind::SixAxes;
+            (axis < 3 ? six.linear : six.angular)[axis % 3] = range;
+            moved.push_back(six);
+            JointDescription free = six;
+            free.angular[(axis + 1) % 3] = JointRange{-0.5, 0.5};
+            moved.push_back(free);
+        }
+    }
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+        Rail rail({});
+        moved[i].kind = i % 13 == 0 ? JointKind::Slider : JointKind::SixAxes;
+        rail.world.step(tick);
+        rail.join(moved[i]);
+        const bool turns = i % 13 != 0 && (i % 13 - 1) / 2 >= 3;
+        const double most = turns ? 1.1 : 0.11;
+        Pose before = rail.world.pose(rail.id);
+        for (int step = 0; step < 1000; ++step) {
+            rail.world.step(tick);
+            const Pose now = rail.world.pose(rail.id);
+            const Vec3 way = turns ? turn_vector(now.rotation * glm::conjugate(before.rotation))
+                                   : now.position - before.position;
+            const Vec3 told =
+                turns ? rail.world.angular_velocity(rail.id) : rail.world.linear_velocity(rail.id);
+            ASSERT_LE(glm::length(way), most * tick) << "case " << i << ", step " << step;
+            ASSERT_LE(glm::length(way / tick - told), 0.2 * most) << "case " << i << ", step " << step;
+            before = now;
+        }
+        const double end = turns ? glm::length(turn_vector(before.rotation)) : glm::length(before.position);
+        EXPECT_GT(end, to - (turns ? 2e-3 : 5e-4)) << "case " << i;
+        EXPECT_LT(end, to + (turns ? 0.011 : 0.0015)) << "case " << i;  // it may coast on within the range
+    }
 }
 
 TEST(JointDrive, WhatMakesNoSenseIsRefused) {
