@@ -7,6 +7,7 @@
 #include "nodes/messages.hpp"
 #include "nodes/roll.hpp"
 #include "nodes/scene_warnings.hpp"
+#include "nodes/signals.hpp"
 #include "nodes/tree_walk.hpp"
 #include "world/hand_picture.hpp"
 #include "world/scene_hand.hpp"
@@ -135,12 +136,32 @@ void ProxyPointer::take_state(const ProxyState& state, const Touched::Ids& bodie
     told_.tell(*this);
 }
 
+void ProxyPointer::tell_broken(std::uint64_t node, double force) {
+    tell_left(node);
+    broken_.insert(node);
+    post_signal(*this, "surface_broken", {SignalArgument::object(node), force});
+}
+
+void ProxyPointer::tell_left(std::uint64_t node) {
+    if (broken_.erase(node) != 0) {
+        post_signal(*this, "surface_left", {SignalArgument::object(node)});
+    }
+}
+
+void ProxyPointer::end_contact(std::uint64_t node) {
+    touched_.end(*this, node);
+    tell_left(node);
+}
+
 void ProxyPointer::clear_state() {
     if (state_.handle == no_handle) {
         return;
     }
     state_ = {};
     touched_.take(*this, {});
+    while (!broken_.empty()) {
+        tell_left(*broken_.begin());
+    }
     place_pictures();
     told_.tell(*this);
 }

@@ -4,6 +4,7 @@
 #include <godot_cpp/classes/node3d.hpp>
 #include <godot_cpp/core/binder_common.hpp>
 #include <godot_cpp/variant/typed_array.hpp>
+#include <set>
 
 #include "nodes/device_choice.hpp"
 #include "nodes/haptic_guide.hpp"
@@ -69,7 +70,10 @@ public:
     using Touched = TouchedBodies<HandForce::max_contacts>;
     void take_state(const ProxyState& state, const Touched::Ids& bodies);
     void clear_state();
-    void end_contact(std::uint64_t node) { touched_.end(*this, node); }
+    void end_contact(std::uint64_t node);
+    // Once for each, in turns: what is left without having broken is not told.
+    void tell_broken(std::uint64_t node, double force);
+    void tell_left(std::uint64_t node);
     // Its hand began inside a body.
     bool is_kept_out() const { return has(proxy_absent); }
     void clear_force() { state_.force = Vec3(0.0); }
@@ -99,6 +103,7 @@ private:
 
     ProxyState state_;
     Touched touched_;
+    std::set<std::uint64_t> broken_;  // bodies whose surface is told as broken
     godot::MeshInstance3D* proxy_picture_ = nullptr;
     godot::MeshInstance3D* hand_picture_ = nullptr;
     godot::MeshInstance3D* line_picture_ = nullptr;

@@ -79,11 +79,13 @@ void SessionLoop::note_impacts(ToolSlot& slot) const {
     slot.impacts.tick(std::span(contacts).first(count), seconds_, slot.events);
 }
 
+// A proxy that is not held has left all.
 void SessionLoop::note_breaks(ProxySlot& slot) const {
+    const bool held = is_held(slot);
     std::array<BreakWatch::Broken, BreakWatch::most> broken;
     std::size_t count = 0;
     for (const PassedBodies::Passed& passed : slot.proxy->passed_bodies()) {
-        if (passed.reason == PassedBecause::broken) {
+        if (held && passed.reason == PassedBecause::broken) {
             broken[count++] = {handle_of_slot_[static_cast<std::size_t>(passed.body)], passed.broken.force};
         }
     }
