@@ -1,6 +1,8 @@
 #include "nodes/scene_bodies.hpp"
 
 #include <algorithm>
+#include <godot_cpp/classes/physics_server3d.hpp>
+#include <godot_cpp/classes/world3d.hpp>
 #include <utility>
 
 #include "nodes/body_parts.hpp"
@@ -102,9 +104,22 @@ void SceneBodies::synchronise(MirrorContext context) {
     server_bodies_.synchronise(context);
 }
 
+namespace {
+
+// A server with a thread of its own has still to do what scripts have told it, and its queries find bodies
+// that are freed. Its answers come when all of that is done.
+void await_server(const Node3D& world) {
+    if (const Ref<World3D> around = world.get_world_3d(); around.is_valid()) {
+        PhysicsServer3D::get_singleton()->space_is_active(around->get_space());
+    }
+}
+
+}  // namespace
+
 // A body counts that is within arm's length of a hand, or next to a local model, which may lie on it.
 void SceneBodies::exchange(PhysicsFrame frame) {
     constexpr double close = 0.5, farthest = 5.0;  // (unit: meters)
+    await_server(scene_.world);
     const std::span<const CloseShape> shapes =
         close_.around(scene_.world, frame.hands, std::min(farthest, close + 2.0 * mirrors_.widest_led()));
     if (close_.is_full()) {

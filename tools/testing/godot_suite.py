@@ -26,6 +26,7 @@ RELEASED = ["first_touch_test", "misuse_test", "random_calls_test", "scripts_tes
 EDITED = ["citizen_editor_test", "editor_test"]
 WITH_EACH_ENGINE = ["games_test", "felt_test", "uneven_frames_test"]
 ENGINES = {"jolt": "Jolt Physics", "own": "GodotPhysics3D"}
+THREADED = ["threaded_test"]  # With Godot's physics on a thread of its own.
 NEED_EYES = ["scenario5_test", "sensing_test"]
 MAIN_SCENE = """[gd_scene load_steps=2 format=3]
 
@@ -102,6 +103,7 @@ def _run_file(path: Path, chosen: list[str]) -> list[Result]:
     for prefix in _prefixes(path):
         names = [name.removeprefix(prefix) for name in chosen if name.startswith(prefix)]
         folder = _with_engine(prefix.split(".")[1]) if path.stem in WITH_EACH_ENGINE else PROJECT
+        folder = _with_engine("thread") if path.stem in THREADED else folder
         command = [str(godot.command()), "--headless", "--path", folder, "--script", FOLDER / "run_tests.gd", "--", path]
         results += _run(prefix, command, names) if names else []
     return results
@@ -114,7 +116,8 @@ def _with_engine(name: str) -> Path:
         if part.name != "project.godot":
             (folder / part.name).symlink_to(part)
     settings = (PROJECT / "project.godot").read_text()
-    (folder / "project.godot").write_text(settings + f'\n[physics]\n\n3d/physics_engine="{ENGINES[name]}"\n')
+    engine = f'3d/physics_engine="{ENGINES[name]}"' if name in ENGINES else "3d/run_on_separate_thread=true"
+    (folder / "project.godot").write_text(settings + f"\n[physics]\n\n{engine}\n")
     return folder
 
 

@@ -466,6 +466,8 @@ void list_classes() {
     same<AABB (VisualInstance3D::*)() const>(&VisualInstance3D::_get_aabb);
 
     same<PhysicsDirectSpaceState3D* (World3D::*)()>(&World3D::get_direct_space_state);
+    same<RID (World3D::*)() const>(&World3D::get_space);
+    same<bool (PhysicsServer3D::*)(const RID&) const>(&PhysicsServer3D::space_is_active);
 
     same<Plane (WorldBoundaryShape3D::*)() const>(&WorldBoundaryShape3D::get_plane);
 
