@@ -41,8 +41,9 @@ TurnFollower follow(const TurnFollower& from, const Quat& target, double rate, d
 FollowingDevice::FollowingDevice(const Settings& settings)
     : rate_(settings.rate),
       rotates_(settings.rotates),
-      targets_(HandTarget{settings.rest, 0, settings.is_there}),
-      hand_{settings.rest, Vec3(0.0)} {}
+      targets_(HandTarget{settings.rest, 0, settings.is_there, settings.turned}),
+      hand_{settings.rest, Vec3(0.0)},
+      turn_{settings.turned, Vec3(0.0)} {}
 
 // The target of the time since the last tick is the one known then: what has just come in counts from now on.
 DeviceSample FollowingDevice::read(Nanoseconds now) {

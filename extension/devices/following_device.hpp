@@ -54,7 +54,8 @@ TurnFollower follow(const TurnFollower& from, const Quat& target, double rate, d
 class FollowingDevice final : public Device {
 public:
     struct Settings {
-        Vec3 rest{0.0};        // where the hand waits for the first target (unit: meters)
+        Vec3 rest{0.0};                   // where the hand waits for the first target (unit: meters)
+        Quat turned{1.0, 0.0, 0.0, 0.0};  // how it is turned there
         double rate = 80.0;    // ω (unit: 1/s), > 0: nine tenths of a jump are made up in 3.9/ω, 49 ms
         bool is_there = true;  // before the first target
         bool rotates = false;  // its targets have a rotation

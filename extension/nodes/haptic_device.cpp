@@ -203,6 +203,9 @@ HandPlan HapticDevice::plan() const {
     HandPlan plan = plan_;
     plan.kind = kind();
     plan.start = start();
+    if (const Node3D* const led_by = plan.kind == HandKind::node ? target_node() : nullptr) {
+        plan.turned = pose_of(led_by->get_global_transform()).rotation;
+    }
     if (plan.kind == HandKind::robot_tip) {
         plan.tip = robot_node()->plan_.tip;
     }
@@ -352,7 +355,13 @@ void HapticDevice::lead_hand() {
         const bool is_there = !may_be_missing(kind()) || hindrance().is_empty();
         hand_.steer(from_view(*this, input.deflection), steering_, get_process_delta_time(), workspace(),
                     input.buttons, is_there);
-    } else if (const Node3D* led_by = target_node()) {
+    } else {
+        follow_target();
+    }
+}
+
+void HapticDevice::follow_target() {
+    if (const Node3D* const led_by = kind() == HandKind::node ? target_node() : nullptr) {
         hand_.lead(pose_of(led_by->get_global_transform()), workspace(), buttons_of(*led_by));
     }
 }

@@ -61,11 +61,13 @@ public:
     godot::String hindrance() const;
     // Null where the driver has nothing to work with; another one after a change of driver or path.
     std::shared_ptr<Device> port();
+    void follow_target();  // to where that is now, where a node leads the hand
     Workspace workspace() const;
     // Where its hand begins, in the scene.
     Vec3 start() const;
     void take_state(const DeviceState& state);
     void clear_state() { take_state({}); }
+    bool applies_force() const { return workspace_.force != Vec3(0.0); }
     // It has motors that a driver commands.
     bool displays_forces() const { return has_driver(kind()); }
     // An event that nothing else has handled (input_watch.hpp).

@@ -49,8 +49,10 @@ SceneHand::SceneHand(HandPlan plan, const Workspace& mapping) : pointed_at_(plan
         port_ = std::make_shared<TipDevice>(std::move(plan.tip));
     } else {
         aimed_at_ = in_device(mapping, plan.start);
+        turn_to(plan.kind == HandKind::node ? plan.turned : mapping.pose.rotation, mapping);
         follower_ = std::make_shared<FollowingDevice>(
             FollowingDevice::Settings{.rest = aimed_at_,
+                                      .turned = turned_to_,
                                       .is_there = !may_be_missing(plan.kind),
                                       .rotates = plan.kind == HandKind::node});
         port_ = follower_;
@@ -69,10 +71,14 @@ void SceneHand::restart_path() {
     }
 }
 
-void SceneHand::lead(const Pose& place, const Workspace& mapping, std::uint32_t buttons) {
-    if (std::isfinite(glm::dot(place.rotation, place.rotation))) {  // a node may be scaled to nothing
-        turned_to_ = glm::conjugate(mapping.pose.rotation) * place.rotation;
+void SceneHand::turn_to(const Quat& turned, const Workspace& mapping) {
+    if (std::isfinite(glm::dot(turned, turned))) {  // a node may be scaled to nothing
+        turned_to_ = glm::conjugate(mapping.pose.rotation) * turned;
     }
+}
+
+void SceneHand::lead(const Pose& place, const Workspace& mapping, std::uint32_t buttons) {
+    turn_to(place.rotation, mapping);
     const bool is_somewhere = glm::length(place.position) < farthest_hand;
     aim(is_somewhere ? in_device(mapping, place.position) : aimed_at_, is_somewhere ? buttons : 0);
 }

@@ -60,7 +60,8 @@ struct HandPlan {
     double robot_mass_error = 0.0, robot_friction_error = 0.0;
     // Of an emulated robot, and of the hand that is its tip: the same one.
     std::shared_ptr<TipExchange> tip = std::make_shared<TipExchange>();
-    Vec3 start{0.0};  // where one that is led begins, in the scene (unit: meters)
+    Vec3 start{0.0};                  // where one that is led begins, in the scene (unit: meters)
+    Quat turned{1.0, 0.0, 0.0, 0.0};  // how one that follows a node begins, in the scene
 };
 
 class SceneHand {
@@ -99,6 +100,7 @@ private:
     std::shared_ptr<DriverDevice> driver_;
     PathClock* clock_ = nullptr;  // of port_; null: it follows no path
     void aim(const Vec3& place, std::uint32_t buttons, bool is_there = true);
+    void turn_to(const Quat& turned, const Workspace& mapping);
 
     Vec3 aimed_at_{0.0};                  // in the device's own frame (unit: meters)
     Quat turned_to_{1.0, 0.0, 0.0, 0.0};  // the rotation, in the same frame

@@ -115,6 +115,25 @@ func test_a_node_of_the_scene_leads_the_hand() -> void:
 	check(not device.is_device_connected(), "nobody leads it")
 
 
+## It begins turned as its node is, and follows it where a script advances without a frame between.
+func test_a_node_leads_the_hand_without_frames() -> void:
+	var world := add_world()
+	var leader := Node3D.new()
+	leader.rotation = Vector3(0.3, 0.4, 0.5)
+	world.add_child(leader)
+	var device := _device(world, HapticDevice.DRIVER_NODE)
+	device.rotation.y = 1.0
+	device.target_node = leader
+	world.advance(0.001)
+	check(device.get_hand_rotation().angle_to(leader.quaternion) < 1e-3, "turned at its beginning")
+	leader.position = Vector3(0.1, 0.2, 0.3)
+	leader.rotation.x = -0.5
+	for _i in 100:
+		world.advance(0.01)
+	check_near(device.get_hand_position(), leader.position, 1e-4, "place")
+	check(device.get_hand_rotation().angle_to(leader.quaternion) < 1e-3, "rotation")
+
+
 func test_a_hand_without_its_node_says_so() -> void:
 	var device := HapticDevice.new()
 	device.driver = HapticDevice.DRIVER_NODE
