@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 
 #include "nodes/conversions.hpp"
@@ -69,19 +70,22 @@ std::vector<EventNews> events_since(const TouchEvents& events, std::uint64_t& re
     return news;
 }
 
-void post_event(const Object& from, const EventNews& news) {
+// Tools break no surface.
+template <class NodeType>
+void post_event(NodeType& from, const EventNews& news) {
     const auto& [event, id] = news;
     if (id == 0) {
         return;
     }
-    const SignalArgument body = SignalArgument::object(id);
-    switch (event.kind) {
-        case TouchEvent::Kind::impact:
-            return post_signal(from, "impact", {body, event.speed, event.impulse});
-        case TouchEvent::Kind::broken:
-            return post_signal(from, "surface_broken", {body, event.force});
-        case TouchEvent::Kind::left:
-            return post_signal(from, "surface_left", {body});
+    if (event.kind == TouchEvent::Kind::impact) {
+        post_signal(from, "impact", {SignalArgument::object(id), event.speed, event.impulse});
+    }
+    if constexpr (std::is_same_v<NodeType, ProxyPointer>) {
+        if (event.kind == TouchEvent::Kind::broken) {
+            from.tell_broken(id, event.force);
+        } else if (event.kind == TouchEvent::Kind::left) {
+            from.tell_left(id);
+        }
     }
 }
 
@@ -119,6 +123,9 @@ void HandMirrors::match(std::vector<Mirror>& mirrors, Session& session) {
 void HandMirrors::synchronise(HapticDevice& node, DeviceTwin& twin, Session& session, Complaints& complaints,
                               bool is_stepped) {
     const std::shared_ptr<Device> port = stand_in_ != nullptr ? stand_in_ : node.port();
+    if (is_stepped) {  // a script may move its target and advance without a frame between
+        node.follow_target();
+    }
     const SessionHandle before = twin.handle();
     const Workspace workspace = port != nullptr ? node.workspace() : Workspace{};
     const LoopPace pace{session.settings().period, !is_stepped};
@@ -137,21 +144,24 @@ namespace {
 
 // Those of the scene, besides its own guide.
 void add_aids(const Node3D& hand, Complaints& complaints, HandAids& aids) {
-    for (const HapticEffect* effect : Roll<HapticEffect>::all()) {
+    for (HapticEffect* const effect : Roll<HapticEffect>::all()) {
         if (effect->hand_node() != &hand) {
             continue;
         }
         HandEffects& effects = aids.effects;
+        String without_room;
         if (const auto form = effect->closed_form(); form && effects.count == HandEffects::most) {
-            complaints.say(*effect, "its hand has eight forces already: switch one of them off");
+            without_room = "its hand has eight forces already: switch one of them off";
         } else if (form) {
             effects.items[effects.count++] = *form;
         }
         if (const auto guide = effect->placed_guide(); guide && aids.guide_count == HandAids::most_guides) {
-            complaints.say(*effect, "its hand has four guides already: switch one of them off");
+            without_room = "its hand has four guides already: switch one of them off";
         } else if (guide) {
             aids.add(*guide);
         }
+        effect->set_without_room(without_room);
+        complaints.say(*effect, without_room);
     }
 }
 

@@ -30,24 +30,30 @@ String HapticEffect::problem() const {
     if (!without_proxy.is_empty()) {
         return without_proxy;
     }
-    if (formula_.is_valid()) {
-        return formula_->get_problem();
+    const String of_formula = formula_.is_valid() ? formula_->get_problem() : String();
+    if (!of_formula.is_empty()) {
+        return of_formula;
     }
     if (guide_.is_valid()) {
         return guide_->get_problem();
     }
-    if (has_method(method_)) {
+    if (formula_.is_valid() || has_method(method_)) {
         return String();
     }
     return "its script has no method '" + method_ +
            "': set 'formula' or 'guide', or write one that answers with a force, a Vector3 in newtons";
 }
 
+String HapticEffect::hindrance() const {
+    const String wrong = problem();
+    return wrong.is_empty() && enabled_ ? without_room_ : wrong;
+}
+
 PackedStringArray HapticEffect::_get_configuration_warnings() const {
     PackedStringArray warnings;
     if (is_inside_tree()) {
         warn(warnings, "This HapticEffect gives no force", problem_without_world(*this));
-        warn(warnings, "This HapticEffect gives no force", problem());
+        warn(warnings, "This HapticEffect gives no force", hindrance());
     }
     return warnings;
 }
@@ -57,14 +63,14 @@ HapticEffect::State HapticEffect::get_state() const {
         return why_off_.is_empty() ? STATE_OFF : STATE_FAILED;
     }
     const bool has_world = HapticWorld::of(this) != nullptr;
-    return state_of<State>(!problem().is_empty(), has_world, has_world);
+    return state_of<State>(!hindrance().is_empty(), has_world, has_world);
 }
 
 String HapticEffect::get_state_text() const {
     if (!enabled_) {
         return why_off_.is_empty() ? String("off") : why_off_;
     }
-    const String wrong = problem();
+    const String wrong = hindrance();
     if (!wrong.is_empty()) {
         return wrong;
     }

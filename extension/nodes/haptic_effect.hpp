@@ -33,9 +33,11 @@ public:
     // --- for the world that it is in
 
     const godot::Node3D* hand_node() const;         // a ProxyPointer or a HapticTool; null: none
-    godot::String problem() const;                  // empty where there is none
+    godot::String problem() const;                  // of its own; empty where there is none
     std::optional<HandEffect> closed_form() const;  // nothing where it has none, or is off
     std::optional<HandGuide> placed_guide() const;  // as above
+    // Once a frame: why its hand has no room for it, and what to do; empty where it has.
+    void set_without_room(const godot::String& why) { without_room_ = why; }
     // Once a frame: whether the script is asked in this one, the questions, and whether it may stay on. It
     // answers with the force on that hand at this time of the world (unit: seconds), or with nothing where
     // that switches it off. The script may free whatever it likes but this node.
@@ -48,6 +50,7 @@ protected:
     void _notification(int what);
 
 private:
+    godot::String hindrance() const;  // its problem, or the lack of room
     void enabled_changed();
     bool is_on() const;
     godot::Transform3D frame() const;
@@ -61,6 +64,7 @@ private:
     bool enabled_ = true;
 
     godot::String why_off_;  // by itself; empty: it is not
+    godot::String without_room_;
     Nanoseconds taken_ = 0;  // by the script, for one frame
     FrameBudget budget_;
     ToldState<State> told_;

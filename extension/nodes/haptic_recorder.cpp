@@ -1,5 +1,7 @@
 #include "nodes/haptic_recorder.hpp"
 
+#include <godot_cpp/variant/callable_method_pointer.hpp>
+
 #include <godot_cpp/classes/node3d.hpp>
 
 #include "nodes/body_reading.hpp"
@@ -112,6 +114,15 @@ bool HapticRecorder::open() {
     return recording_ != nullptr;
 }
 
+void HapticRecorder::start_late() {
+    for (HapticRecorder* const recorder : Roll<HapticRecorder>::all()) {
+        const bool is_new = recorder->recording_ == nullptr && recorder->not_started_.is_empty();
+        if (is_new && recorder->autostart_ && recorder->has_file()) {
+            recorder->start();
+        }
+    }
+}
+
 void HapticRecorder::stop() {
     close();
     tell_state();
@@ -126,8 +137,12 @@ void HapticRecorder::close() {
 
 void HapticRecorder::_notification(int what) {
     keep_roll(*this, what);
-    if (what == NOTIFICATION_ENTER_TREE && autostart_ && has_file() && !is_edited()) {
-        start();
+    if (what == NOTIFICATION_ENTER_TREE && autostart_ && !is_edited()) {
+        if (has_file()) {
+            start();
+        } else {  // a script may set it in the same frame
+            callable_mp_static(&HapticRecorder::start_late).call_deferred();
+        }
     } else if (what == NOTIFICATION_EXIT_TREE) {
         stop();
     }

@@ -54,6 +54,7 @@ protected:
 
 private:
     bool open();
+    static void start_late();  // those whose file is set by now
     void close();
     bool has_file() const { return !(csv_path_.is_empty() && trace_path_.is_empty()); }
 

@@ -16,6 +16,7 @@
 #include "nodes/body_reading.hpp"
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_depth_sensor.hpp"
+#include "nodes/haptic_device.hpp"
 #include "nodes/haptic_effect.hpp"
 #include "nodes/haptic_joint_drive.hpp"
 #include "nodes/haptic_material.hpp"
@@ -154,6 +155,10 @@ bool needs_no_bodies(const Node& node) {
     const auto* const tool = Object::cast_to<HapticTool>(&node);
     if (Object::cast_to<HapticEffect>(&node) != nullptr || (pointer != nullptr && pointer->has_guide()) ||
         (tool != nullptr && tool->has_guide())) {
+        return true;
+    }
+    const auto* const device = Object::cast_to<HapticDevice>(&node);
+    if (device != nullptr && device->applies_force()) {
         return true;
     }
     const auto* sensor = Object::cast_to<HapticDepthSensor>(&node);

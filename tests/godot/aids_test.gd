@@ -315,3 +315,105 @@ func test_a_tool_says_which_effects_of_a_surface_it_does_not_feel() -> void:
 	world.advance(0.2)
 	var problems := "\n".join(tool.get_problems())
 	check(problems.contains("pop_through_force") and problems.contains("vibration_force"), problems)
+
+
+## More than a hand has room for are said where they are.
+func test_an_effect_without_room_says_so() -> void:
+	var world := add_world()
+	var proxy := add_hand(world, path(Vector3.ZERO, Vector3.ZERO))
+	var effects: Array[HapticEffect] = []
+	for _i in 5:
+		effects.append(_effect_below(proxy, proxy))
+		effects[-1].guide = HapticGuide.new()
+		effects[-1].guide.form = HapticGuide.FORM_POINT
+		effects[-1].guide.points = PackedVector3Array([Vector3(0.01, 0, 0)])
+	expect_error("four guides")
+	world.advance(0.2)
+	check_equal(effects[3].get_state_text(), "working", "the fourth")
+	check(effects[4].get_state_text().contains("four guides"), effects[4].get_state_text())
+	check_equal(effects[4].get_state(), HapticEffect.STATE_FAILED, "state")
+	check_equal(effects[4].get_problems().size(), 1, "problems")
+	effects[0].enabled = false
+	world.advance(0.2)
+	check_equal(effects[4].get_state_text(), "working", "with room")
+
+
+func _needle(world: HapticWorld) -> Array[String]:
+	var told: Array[String] = []
+	var skin := material(800.0)
+	skin.pop_through_force = 1.0
+	var layer := with_shape(StaticBody3D.new(), box(Vector3(0.1, 0.02, 0.1)), Vector3(0, -0.01, 0))
+	layer.name = "Layer"
+	(layer as StaticBody3D).physics_material_override = skin
+	world.add_child(layer)
+	var needle := add_hand(world, path(Vector3(0, 0.02, 0), Vector3(0, -0.01, 0)))
+	needle.surface_broken.connect(func(body: Node3D, _force: float) -> void: told.append("in " + body.name))
+	needle.surface_left.connect(func(body: Node3D) -> void: told.append("out " + body.name))
+	world.advance(1.2)
+	check_equal(told, ["in Layer"], "before")
+	return told
+
+
+## A body that goes, and a needle that is switched off, are left as well.
+func test_each_surface_that_is_broken_is_left_once() -> void:
+	var world := add_world()
+	var told := _needle(world)
+	world.get_node("Layer").free()
+	world.advance(0.1)
+	check_equal(told, ["in Layer", "out Layer"], "without the body")
+	world = add_world()
+	told = _needle(world)
+	var needle: ProxyPointer = world.find_children("*", "ProxyPointer", false, false)[0]
+	needle.enabled = false
+	world.advance(0.1)
+	check_equal(told, ["in Layer", "out Layer"], "switched off")
+	world = add_world()
+	told = _needle(world)
+	needle = world.find_children("*", "ProxyPointer", false, false)[0]
+	world.remove_child(needle)
+	await frames(2)
+	check_equal(told, ["in Layer", "out Layer"], "taken away")
+	needle.free()
+
+
+## Godot's physics knows nothing of drives.
+func test_a_drive_says_that_godot_moves_its_bodies() -> void:
+	var world := add_world()
+	var body := with_shape(RigidBody3D.new(), sphere(0.05)) as RigidBody3D
+	world.add_child(body)
+	var hinge := HingeJoint3D.new()
+	world.add_child(hinge)
+	hinge.node_a = hinge.get_path_to(body)
+	var drive := HapticJointDrive.new()
+	drive.stiffness = 1.0
+	hinge.add_child(drive)
+	world.advance(0.01)
+	check_equal(Array(drive.get_problems()), [], "of the haptic world's")
+	world.authority = HapticWorld.AUTHORITY_GODOT
+	await frames(2)
+	check("\n".join(drive.get_problems()).contains("'authority' to Haptic"), str(drive.get_problems()))
+
+
+## As scripts build scenes: the path of the file after add_child().
+func test_a_recorder_starts_with_a_file_of_the_same_frame() -> void:
+	DirAccess.make_dir_recursive_absolute(FOLDER)
+	var world := add_world()
+	var proxy := add_hand(world, path(Vector3.ZERO, Vector3.ZERO))
+	var recorder := HapticRecorder.new()
+	world.add_child(recorder)
+	recorder.csv_path = FOLDER.path_join("late.csv")
+	recorder.proxy_node = proxy
+	await frames(1)
+	world.advance(0.1)
+	await frames(2)
+	check_equal(recorder.get_rows(), 100, "rows; " + recorder.get_state_text())
+	recorder.stop()
+
+
+func test_a_force_of_the_scene_needs_no_bodies() -> void:
+	var world := add_world()
+	add_hand(world, path(Vector3.ZERO, Vector3.ZERO))
+	(world.get_node("Device") as HapticDevice).applied_force = Vector3(0, 1, 0)
+	world.advance(0.1)
+	world.advance(0.1)
+	check_near((world.get_node("Device") as HapticDevice).get_force(), Vector3(0, 1, 0), 1e-6, "force")
