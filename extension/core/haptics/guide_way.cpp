@@ -57,7 +57,7 @@ std::string check_guide_points(std::span<const Vec3> points) {
 
 std::string check_way(const GuideWay& way) {
     if (way.points.size() < 2) {
-        return "the guide has too few points: give a point one, a line or a way two, a plane three";
+        return "the guide has too few points: give a point one, a line or a path two, a plane three";
     }
     if (way.points.size() > GuideWay::most) {
         return "a guide has at most 4096 points: leave some out, or use several";

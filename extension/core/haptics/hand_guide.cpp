@@ -31,7 +31,7 @@ bool is_frame(const Pose& frame) {
 
 std::string check_points(const HandGuide& guide) {
     if (guide.count > HandGuide::max_points || guide.count < points_needed(guide.form)) {
-        return "the guide has too few points: give a point one, a line or a way two, a plane three";
+        return "the guide has too few points: give a point one, a line or a path two, a plane three";
     }
     const std::span<const Vec3> points(guide.points);
     if (std::string problem = check_guide_points(points.first(guide.count)); !problem.empty()) {
