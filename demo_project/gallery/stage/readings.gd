@@ -34,7 +34,12 @@ func _process(delta: float) -> void:
 
 
 func _line_of(pointer: Node3D) -> String:
-	var line := "force %4.2f N" % pointer.get_force().length()
+	var force: float = pointer.get_force().length()
+	var line := "force %4.2f N" % force
+	var device := pointer.device_node as HapticDevice
+	var shown := device.get_displayed_force().length() if device != null else force
+	if shown < device.get_requested_force().length() - 0.01:
+		line += " (%4.2f N displayed)" % shown
 	if pointer is HapticTool:
 		line += "   torque %5.3f Nm" % pointer.get_torque().length()
 	return "%s   %s" % [line, pointer.get_state_text()]
