@@ -114,6 +114,10 @@ void HapticVibrationSound::push_sound() {
         player_->set_as_top_level(true);
         add_child(player_, false, INTERNAL_MODE_BACK);
         player_->play();
+        // Godot plays on for a moment when the player has gone, and does not hold the stream itself.
+        if (const Ref<AudioStreamPlayback> playing = player_->get_stream_playback(); playing.is_valid()) {
+            playing->set_meta("stream", stream);
+        }
     }
     if (const Node3D* hand = hand_node()) {
         player_->set_global_position(hand->get_global_position());

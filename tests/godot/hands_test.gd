@@ -314,6 +314,16 @@ func test_a_touch_is_heard_where_it_is() -> void:
 	await _strongest(feedback, 0.05)
 
 
+## Godot's audio thread plays a sound on for a moment after its node has gone, and needs its stream until then.
+func test_a_sound_that_ends_with_its_node_stops_no_audio() -> void:
+	for _i in 8:
+		var feedback := _tapping_world(1000.0)
+		await _strongest(feedback, 0.2)
+		feedback.get_parent().get_parent().free()
+		await frames(3)
+		check(AudioServer.get_time_since_last_mix() < 0.5, "the audio thread stands still")
+
+
 func test_feedback_comes_and_goes_while_the_world_runs() -> void:
 	var feedback := _tapping_world(1000.0)
 	var tip: ProxyPointer = feedback.get_parent()
