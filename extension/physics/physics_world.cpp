@@ -480,6 +480,13 @@ double PhysicsWorld::mass(BodyId id) const {
     return body != nullptr ? impl_->record(*body).mass * impl_->record(*body).factors.mass : 0.0;
 }
 
+Vec3 PhysicsWorld::spun_by(BodyId id, const Vec3& turn) const {
+    const JPH::Body* body = impl_->find(id);
+    return body != nullptr && body->IsDynamic()
+               ? units::plain(body->GetInverseInertia().Multiply3x3(units::plain(turn)))
+               : Vec3(0.0);
+}
+
 double PhysicsWorld::mobility(BodyId id, const Vec3& world_point, const Vec3& along) const {
     const JPH::Body* body = impl_->find(id);
     const double length = glm::length(along);

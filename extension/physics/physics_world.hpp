@@ -209,6 +209,9 @@ public:
     Vec3 angular_velocity(BodyId id) const;  // (unit: radians per second)
     Vec3 velocity_at(BodyId id, const Vec3& world_point) const;  // of the body's material there
     double mass(BodyId id) const;                                // (unit: kilograms); 0 for what cannot move
+    // What an angular impulse changes the angular velocity by (units: newton meter seconds, radians per
+    // second).
+    Vec3 spun_by(BodyId id, const Vec3& turn) const;
     // What a unit impulse there changes the speed of that place by, along itself; 0 for what cannot move
     // (unit: 1/kilogram). `along`: need not be of unit length.
     double mobility(BodyId id, const Vec3& world_point, const Vec3& along) const;

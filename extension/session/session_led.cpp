@@ -128,6 +128,7 @@ void SessionLoop::note_led() {
         if (Led* const one = led(handle_of_id_[push.body.index()])) {
             one->state.impulse += push.impulse;
             one->state.turn += push.turn;
+            one->state.spun += physics_.spun_by(push.body, push.turn);
         }
     }
     for (Led& one : led_) {

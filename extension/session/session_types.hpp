@@ -120,6 +120,7 @@ struct LedState {
     BodyMotion motion;
     Vec3 impulse{0.0};  // that hands have given it, in the world (unit: newton seconds)
     Vec3 turn{0.0};     // about its centre of mass (unit: newton meter seconds)
+    Vec3 spun{0.0};     // what that alone has changed its spin by (unit: radians per second)
     // Where its velocities alone have led it, without what it was moved and turned by (units: meters,
     // radians).
     Vec3 way{0.0}, turned{0.0};

@@ -73,10 +73,8 @@ void LedMotion::leave_what_is_lost(BodyCorrection& next, const LedState& model) 
     const Vec3 pushed = before_.mass > 0.0 ? (model.impulse - before_.impulse) / before_.mass : Vec3(0.0);
     const Vec3 linear = now.linear_velocity - then.linear_velocity - pushed;
     next.linear -= taken_back(next.linear, has.linear - had.linear, linear);
-    if (model.turn == before_.turn) {
-        const Vec3 angular = now.angular_velocity - then.angular_velocity;
-        next.angular -= taken_back(next.angular, has.angular - had.angular, angular);
-    }
+    const Vec3 angular = now.angular_velocity - then.angular_velocity - (model.spun - before_.spun);
+    next.angular -= taken_back(next.angular, has.angular - had.angular, angular);
 }
 
 // The model as it was one frame ago had been pushed by what the engine's body shows now. Of `besides`, by

@@ -366,9 +366,9 @@ TEST(LedMotion, ABodyThatIsPutElsewhereIsThereAtOnce) {
 }
 
 // The engine's body is struck for one frame. In the model a joint holds it, and undoes each correction.
-TEST(LedMotion, WhatAJointUndoesIsNotTakenBack) {
+// `turn`: what a hand changes the model's spin by in each frame, and the joint takes back.
+double asked_of_what_a_joint_undoes(const Vec3& struck, const Vec3& turn) {
     constexpr double frame = 1.0 / 60.0, tick = 1e-3;
-    const Vec3 struck(1.0, 0.5, -0.2);
     LedMotion led;
     LedState model;
     double asked = 0.0;
@@ -382,10 +382,18 @@ TEST(LedMotion, WhatAJointUndoesIsNotTakenBack) {
             asked = std::max({asked, glm::length(correction.linear), glm::length(correction.angular)});
         }
         model.seconds += frame;
+        model.turn += 1e-3 * turn;
+        model.spun += turn;
         model.corrected.linear += correction.linear;
         model.corrected.angular += correction.angular;
     }
-    EXPECT_LT(asked, 0.01 * glm::length(struck));
+    return asked;
+}
+
+TEST(LedMotion, WhatAJointUndoesIsNotTakenBack) {
+    const Vec3 struck(1.0, 0.5, -0.2);
+    EXPECT_LT(asked_of_what_a_joint_undoes(struck, Vec3(0.0)), 0.01 * glm::length(struck));
+    EXPECT_LT(asked_of_what_a_joint_undoes(struck, {0.2, 0.0, 0.0}), 0.01 * glm::length(struck));
 }
 
 }  // namespace
