@@ -8,8 +8,8 @@
 namespace tactus {
 
 void SeenMass::note(const Vec3& impulse, const Vec3& change, double told) {
-    constexpr double doubt = 1e-3;  // pushes of less tell nothing (unit: meters per second)
-    constexpr double notice = 0.1;  // of the factor
+    constexpr double doubt = 1e-3;   // pushes of less tell nothing (unit: meters per second)
+    constexpr double notice = 0.02;  // of the factor
     constexpr double least_count = 1.5;
     constexpr double scatter = 0.03;  // about the line, of what such pushes change
     if (glm::length(impulse) < doubt * told) {
@@ -25,7 +25,7 @@ void SeenMass::note(const Vec3& impulse, const Vec3& change, double told) {
     const double factor = std::clamp(1.0 / std::max(slope * told, 1e-9), least_factor, most_factor);
     const double besides = of_changes_ - slope * of_both_;
     const bool is_line = count_ > least_count && besides < scatter * of_impulses_ / (told * told);
-    if (is_line && std::abs(factor - factor_) > notice * factor_) {
+    if (is_line && factor < most_factor && std::abs(factor - factor_) > notice * factor_) {
         factor_ = factor;
     }
 }

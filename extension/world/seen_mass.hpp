@@ -1,10 +1,12 @@
 // The mass of a body that an engine moves, from what pushes change of its velocity: another body may hang on
-// it that only the engine knows, or a wall stand behind it.
+// it that only the engine knows.
 //
 // A push of impulse p changes the velocity by p / m, and other forces by something besides. So 1 / m is the
 // slope of the line through the last frames' changes over their impulses (least squares that forget), where
 // they are on a line. The last frame before a push tells what other forces do, so that one pushed frame is
 // enough: a body that bounces off a finger touches it for a few frames in all.
+//
+// What pushes do not move at all is held, by friction or a wall that only the engine knows, and not heavy.
 //
 // Plain values.
 #pragma once
