@@ -34,6 +34,13 @@ Vec3 beyond(const Vec3& begin, const Vec3& end, const Vec3& way, double seconds,
     return 0.5 * seconds * (begin + end) + 0.5 * tick * (end - begin) - way;
 }
 
+// An engine's own solver may fail for some frames.
+bool is_finite(const BodyMotion& motion) {
+    const Vec3 sums = motion.pose.position + motion.linear_velocity + motion.angular_velocity;
+    const Quat& q = motion.pose.rotation;
+    return std::isfinite(sums.x + sums.y + sums.z + q.w + q.x + q.y + q.z);
+}
+
 void correct(BodyCorrection& correction, const BodyMotion& truth, const BodyMotion& model) {
     correction.by = truth.pose.position - model.pose.position;
     correction.turn = turn_vector(truth.pose.rotation * glm::conjugate(model.pose.rotation));
@@ -123,6 +130,9 @@ void LedMotion::note_lead(const LedState& model, double seconds, double tick) {
 
 LedMotion::Frame LedMotion::frame(const BodyMotion& engines, const LedState& model, double seconds,
                                   double tick) {
+    if (!is_finite(engines)) {
+        return {};
+    }
     const BodyMotion truth = without_lead(engines, 0.5 * std::max(0.0, seconds - tick));
     Frame frame;
     // What hands did in the time that the engine loses is lost with it: else a body flies away that was

@@ -48,7 +48,8 @@ public:
     };
 
     // `engines`: the engine's body in this frame, before it has the impulse. `model`: as it is now.
-    // `seconds`: of a frame, `tick`: of one of the model's ticks, > 0.
+    // `seconds`: of a frame, `tick`: of one of the model's ticks, > 0. A frame in which the engine's body has
+    // something that is no number is left out.
     Frame frame(const BodyMotion& engines, const LedState& model, double seconds, double tick);
 
     // Farther off than this within a frame, a body has been put there and has not gone (units: meters,

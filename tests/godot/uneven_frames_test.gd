@@ -247,6 +247,59 @@ func test_a_body_is_disabled_under_the_hand() -> void:
 	await _change(change, false, "disabled")
 
 
+## What Godot's own solver makes of a body for some frames, and then no more. The hand, which goes up and
+## presses once more, feels the body again, and never more than its device may give.
+func test_bodies_whose_engine_fails() -> void:
+	var engine: String = ProjectSettings.get_setting("physics/3d/physics_engine")
+	expect_error("must be normalized")
+	expect_error("is not supported by Jolt" if engine == "Jolt Physics" else "Object went too far away")
+	var none := Vector3(NAN, NAN, NAN)
+	for broken: Array in [
+		[PhysicsServer3D.BODY_STATE_LINEAR_VELOCITY, none],
+		[PhysicsServer3D.BODY_STATE_ANGULAR_VELOCITY, none],
+		[PhysicsServer3D.BODY_STATE_LINEAR_VELOCITY, Vector3(0, INF, 0)],
+		[PhysicsServer3D.BODY_STATE_LINEAR_VELOCITY, Vector3(1e6, 0, 0)],
+		[PhysicsServer3D.BODY_STATE_ANGULAR_VELOCITY, Vector3(0, 0, 1e6)],
+		[PhysicsServer3D.BODY_STATE_TRANSFORM, Transform3D(Basis.IDENTITY, none)],
+		[PhysicsServer3D.BODY_STATE_TRANSFORM, Transform3D(Basis(none, none, none), Vector3.ZERO)],
+	]:
+		await _fail(broken[0], broken[1])
+
+
+func _fail(state: PhysicsServer3D.BodyState, value: Variant) -> void:
+	var what := "state %s is %s" % [state, value]
+	var world := _world()
+	add_floor(world)
+	var block := _block(world, Vector3(0, 0.05, 0))
+	var up := Vector3(0.01, 0.3, 0.01)
+	var down := Vector3(0.01, 0.1, 0.01)
+	var way := path(up, down)
+	way.points_positions = PackedVector3Array([up, down, down, up, down])
+	way.points_times = PackedFloat64Array([0.0, 0.5, 2.0, 2.2, 2.6])
+	var proxy := add_hand(world, way)
+	var felt := Felt.new()
+	var rested := Transform3D.IDENTITY
+	for i in 180:
+		await get_tree().physics_frame
+		if i == 89:
+			rested = block.global_transform
+			check_near(proxy.get_force(), Vector3(0, PRESSED, 0), 2.0, what + ": force before")
+		if i >= 90 and i < 95:
+			PhysicsServer3D.body_set_state(block.get_rid(), state, value)
+		elif i == 95:
+			var server := PhysicsServer3D
+			server.body_set_state(block.get_rid(), PhysicsServer3D.BODY_STATE_TRANSFORM, rested)
+			server.body_set_state(block.get_rid(), PhysicsServer3D.BODY_STATE_LINEAR_VELOCITY, Vector3.ZERO)
+			server.body_set_state(block.get_rid(), PhysicsServer3D.BODY_STATE_ANGULAR_VELOCITY, Vector3.ZERO)
+		_ticks(world, 17, felt)
+	var limit: float = (world.get_node("Device") as HapticDevice).force_limit
+	check(is_finite(felt.largest) and felt.largest < limit + 0.01, "%s: %s N" % [what, felt.largest])
+	check(felt.largest_step < LARGEST_STEP, "%s: %s N in a tick" % [what, felt.largest_step])
+	if block.global_transform.is_finite():  # Godot Physics may keep what is no number
+		check_near(proxy.get_force(), Vector3(0, PRESSED, 0), 2.0, what + ": force after")
+	world.free()
+
+
 ## A body is where it is, wherever it was when hands were last close to it.
 func test_no_ghost_stays_where_a_hand_has_left() -> void:
 	var world := _world()

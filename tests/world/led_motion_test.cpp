@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -388,6 +389,22 @@ double asked_of_what_a_joint_undoes(const Vec3& struck, const Vec3& turn) {
         model.corrected.angular += correction.angular;
     }
     return asked;
+}
+
+TEST(LedMotion, AFrameInWhichTheEngineFailsIsLeftOut) {
+    constexpr double frame = 1.0 / 60.0, tick = 1e-3, none = std::numeric_limits<double>::quiet_NaN();
+    LedMotion led;
+    LedState model;
+    for (int i = 0; i < 10; ++i) {
+        BodyMotion engines;
+        engines.pose.position.x = i < 6 ? 0.0 : 0.01;
+        engines.linear_velocity.y = i == 3 ? none : 0.0;
+        const BodyCorrection correction = led.frame(engines, model, frame, tick).correction;
+        model.seconds += frame;
+        model.motion.pose.position += correction.by;
+        model.corrected.by += correction.by;
+    }
+    EXPECT_NEAR(model.motion.pose.position.x, 0.01, 1e-6);
 }
 
 TEST(LedMotion, WhatAJointUndoesIsNotTakenBack) {
