@@ -79,9 +79,9 @@ void SessionLoop::note_impacts(ToolSlot& slot) const {
     slot.impacts.tick(std::span(contacts).first(count), seconds_, slot.events);
 }
 
-// A proxy that is not held has left all.
+// A proxy that is not held, or has yet to begin, has left all.
 void SessionLoop::note_breaks(ProxySlot& slot) const {
-    const bool held = is_held(slot);
+    const bool held = is_held(slot) && (slot.state.status & proxy_absent) == 0;
     std::array<BreakWatch::Broken, BreakWatch::most> broken;
     std::size_t count = 0;
     for (const PassedBodies::Passed& passed : slot.proxy->passed_bodies()) {

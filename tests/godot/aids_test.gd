@@ -367,6 +367,9 @@ func test_each_surface_that_is_broken_is_left_once() -> void:
 	needle.enabled = false
 	world.advance(0.1)
 	check_equal(told, ["in Layer", "out Layer"], "switched off")
+	needle.enabled = true
+	world.advance(0.1)
+	check_equal(told, ["in Layer", "out Layer"], "switched on within it")
 	world = add_world()
 	told = _needle(world)
 	needle = world.find_children("*", "ProxyPointer", false, false)[0]
