@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "nodes/conversions.hpp"
+#include "nodes/soft_surface.hpp"
 #include "nodes/tree_walk.hpp"
 
 namespace tactus {
@@ -28,7 +29,7 @@ auto key_of(const CloseShape& shape) {
 // The others of such a body need not be looked for.
 bool is_all_of_its_body(const CloseShape& shape) {
     const auto* const owner = node_of_id<Node>(shape.owner);
-    return (owner != nullptr && owner->is_class("SoftBody3D")) ||
+    return (owner != nullptr && is_soft_body(*owner)) ||
            PhysicsServer3D::get_singleton()->body_get_shape_count(shape.body) == 1;
 }
 

@@ -74,20 +74,19 @@ constexpr PassedProperty passed_properties[] = {
 // Nodes that are not carried over at all.
 struct PassedKind {
     const char* kind;
-    bool is_unfelt;  // also where Godot's own physics moves the bodies
     const char* why;
 };
 constexpr PassedKind passed_kinds[] = {
-    {"GridMap", false,
+    {"GridMap",
      "a GridMap is not carried over: give its tiles as StaticBody3D nodes with shapes, or set the world's "
      "'authority' to Godot"},
-    {"SoftBody3D", true,
+    {"SoftBody3D",
      "a SoftBody3D is not carried over: put a HapticSoftBody below a StaticBody3D in its place, with its "
-     "mesh and its pinned points"},
-    {"PhysicalBone3D", false,
+     "mesh and its pinned points, or set the world's 'authority' to Godot"},
+    {"PhysicalBone3D",
      "a PhysicalBone3D is not carried over: give the bone as a RigidBody3D with joints, or as an "
      "AnimatableBody3D that follows the skeleton, or set the world's 'authority' to Godot"},
-    {"VehicleWheel3D", false,
+    {"VehicleWheel3D",
      "a VehicleWheel3D is not carried over: give the wheel as a RigidBody3D on a HingeJoint3D, or set the "
      "world's 'authority' to Godot"},
 };
@@ -222,13 +221,12 @@ struct Use {
     std::string what;  // "uses ..."
     std::string why;   // what becomes of it, and what to do
     Asks asks = Asks::for_godot;
-    bool by_godot_as_well = false;  // Godot's own physics carries it out, but no hand feels it
 };
 
 void for_each_use(const Node& node, const std::function<void(Use)>& take) {
     const Rows& rows = rows_of(node);
     for (const PassedKind* kind : rows.kinds) {
-        take({std::string("is a ") + kind->kind, kind->why, Asks::for_godot, kind->is_unfelt});
+        take({std::string("is a ") + kind->kind, kind->why});
     }
     const std::string class_name = from_godot(node.get_class());
     if (rows.is_csg && static_cast<bool>(node.get("use_collision"))) {
@@ -275,11 +273,9 @@ void for_each_use(const Node& node, const std::function<void(Use)>& take) {
 
 std::vector<std::string> passed_over(const Node& node, bool engine_moves) {
     std::vector<std::string> found;
-    for_each_use(node, [&](Use use) {
-        if (!engine_moves || use.by_godot_as_well) {
-            found.push_back(std::move(use.why));
-        }
-    });
+    if (!engine_moves) {
+        for_each_use(node, [&found](Use use) { found.push_back(std::move(use.why)); });
+    }
     return found;
 }
 

@@ -18,7 +18,7 @@ using namespace godot;
 // A shape or mesh that comes or goes changes the body above it.
 void SceneBodies::scene_changed(Node& node, bool comes) {
     const bool is_mirrored = is_solid_body(&node) || Object::cast_to<Joint3D>(&node) != nullptr;
-    tree_changed_ |= is_mirrored;
+    tree_changed_ |= is_mirrored || is_soft_body(node);
     if (!is_mirrored) {
         others_.push_back(node.get_instance_id());
     }
@@ -67,17 +67,23 @@ std::vector<std::string> SceneBodies::problems() const {
 }
 
 void SceneBodies::find(Session& session) {
-    std::vector<std::uint64_t> bodies, joints;
+    std::vector<std::uint64_t> bodies, joints, soft_bodies;
     for_each_below(scene_.world, [&](Node& node) {
         if (is_solid_body(&node)) {
             bodies.push_back(node.get_instance_id());
         } else if (Object::cast_to<Joint3D>(&node) != nullptr) {
             joints.push_back(node.get_instance_id());
-        } else if (is_first_look_) {
-            say_passed_over(node);
+        } else {
+            if (is_soft_body(node)) {
+                soft_bodies.push_back(node.get_instance_id());
+            }
+            if (is_first_look_) {
+                say_passed_over(node);
+            }
         }
     });
     is_first_look_ = false;
+    server_bodies_.set_soft_bodies(std::move(soft_bodies));
     const auto make_body = [this](std::uint64_t id) {
         return std::make_unique<GodotBody>(*node_of_id<CollisionObject3D>(id), scene_, mirrors_.news());
     };
@@ -120,8 +126,8 @@ void await_server(const Node3D& world) {
 void SceneBodies::exchange(PhysicsFrame frame) {
     constexpr double close = 0.5, farthest = 5.0;  // (unit: meters)
     await_server(scene_.world);
-    const std::span<const CloseShape> shapes =
-        close_.around(scene_.world, frame.hands, std::min(farthest, close + 2.0 * mirrors_.widest_led()));
+    const double radius = std::min(farthest, close + 2.0 * mirrors_.widest_led());
+    const std::span<const CloseShape> shapes = close_.around(scene_.world, frame.hands, radius);
     if (close_.is_full()) {
         scene_.complaints.say(scene_.world,
                               "there are so many shapes about a hand that those farther from it are left "
@@ -138,7 +144,7 @@ void SceneBodies::exchange(PhysicsFrame frame) {
     }
     frame.close = bodies;
     mirrors_.exchange(frame);
-    server_bodies_.exchange(others, frame);
+    server_bodies_.exchange(others, radius, frame);
 }
 
 std::uint64_t SceneBodies::node_of(SessionHandle body) const {

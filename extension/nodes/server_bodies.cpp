@@ -1,6 +1,7 @@
 #include "nodes/server_bodies.hpp"
 
 #include <algorithm>
+#include <glm/geometric.hpp>
 #include <godot_cpp/classes/physics_server3d.hpp>
 #include <ranges>
 
@@ -18,6 +19,9 @@ constexpr int max_new = 32;
 
 // Changes that wait for synchronise().
 constexpr std::size_t max_told = 1024;
+
+// In the place of a shape's number, where the id before is that of a SoftBody3D.
+constexpr int soft_part_index = -2;
 
 // Shapes of one body that physics moves.
 constexpr int max_shapes = 64;
@@ -93,6 +97,11 @@ void read(ServerPart& part) {
     read_values(part);
 }
 
+void read_soft(ServerPart& part) {
+    part.form = part.soft->form();
+    part.values.layers = {part.soft->layer(), part.soft->mask()};
+}
+
 // What was read of it.
 class ServerBody final : public SceneBody {
 public:
@@ -117,7 +126,11 @@ public:
     BodyValues values(const BodyDefaults& defaults) override {
         BodyValues values = part_->values;
         values.touch = defaults.touch;
-        values.detail = defaults.detail;
+        if (part_->soft != nullptr) {
+            part_->soft->soften(values.touch, part_->frame_seconds);
+        } else {
+            values.detail = defaults.detail;
+        }
         return values;
     }
 
@@ -155,10 +168,53 @@ bool ServerBodies::is_felt(const CloseShape& shape) const {
     if (owner == nullptr || node == nullptr) {
         return shape.owner == 0 || owner != nullptr;
     }
-    return scene_.world.is_ancestor_of(node) && !is_solid_body(node) && !node->is_class("SoftBody3D");
+    return scene_.world.is_ancestor_of(node) && !is_solid_body(node) && !is_soft_body(*node);
 }
 
-void ServerBodies::find(std::span<const CloseShape> close) {
+// Godot Physics finds none of them by a shape.
+void ServerBodies::find_soft(double radius, const PhysicsFrame& frame) {
+    std::map<std::uint64_t, std::shared_ptr<SoftSurface>> known = std::exchange(surfaces_, {});
+    for (const std::uint64_t id : soft_bodies_) {
+        auto* const node = node_of_id<MeshInstance3D>(id);
+        if (node == nullptr || !node->is_inside_tree()) {
+            continue;
+        }
+        std::shared_ptr<SoftSurface>& surface = surfaces_[id] = std::move(known[id]);
+        if (surface == nullptr) {
+            surface = std::make_shared<SoftSurface>(*node);
+        } else if (!surface->is_of(*node)) {
+            surface = std::make_shared<SoftSurface>(*node);
+            surface->refuse(
+                "a SoftBody3D is not felt whose mesh was changed in the tree, since Godot's physics keeps "
+                "the one before: take it out of the tree and put it back");
+        }
+        if (surface->is_close(frame.hands, radius)) {
+            find_soft(id, surface, frame);
+        }
+    }
+}
+
+void ServerBodies::find_soft(std::uint64_t owner, const std::shared_ptr<SoftSurface>& surface,
+                             const PhysicsFrame& frame) {
+    const auto is_of = [&](const auto& entry) { return entry.second->soft == surface; };
+    const auto found = std::ranges::find_if(parts_, is_of);
+    std::shared_ptr<ServerPart> part = found != parts_.end() ? found->second : std::make_shared<ServerPart>();
+    part->is_there = true;
+    part->frame_seconds = frame.seconds;
+    if (found == parts_.end()) {
+        part->id = ++last_id_;
+        part->owner = owner;
+        part->shape = 0;
+        part->soft = surface;
+        surface->come_close();
+        part->frame.origin = surface->place();
+        read_soft(*part);
+        parts_[{owner, soft_part_index}] = std::move(part);
+        has_changed_ = true;
+    }
+}
+
+void ServerBodies::find(std::span<const CloseShape> close, double radius, const PhysicsFrame& frame) {
     for (const auto& part : parts_ | std::views::values) {
         part->is_there = false;
     }
@@ -182,16 +238,76 @@ void ServerBodies::find(std::span<const CloseShape> close) {
             part->is_there = true;
         }
     }
+    find_soft(radius, frame);
     const std::size_t gone = std::erase_if(
         parts_, [](const auto& entry) { return entry.second == nullptr || !entry.second->is_there; });
     has_changed_ |= is_new > 0 || gone > 0;
 }
 
-void ServerBodies::exchange(std::span<const CloseShape> close, PhysicsFrame frame) {
-    if (close.empty() && parts_.empty()) {
+// Whether it is made of something else than before, as far as is known now.
+bool ServerBodies::read_again(ServerPart& part) const {
+    const bool is_turn = (frames_ + part.id) % frames_between_readings == 0;
+    if (part.soft != nullptr) {
+        const bool has_moved = part.soft->read();
+        if (has_moved || is_turn) {
+            read_soft(part);
+        }
+        return has_moved || is_turn;
+    }
+    if (is_turn && triangle_count(part.form) <= max_triangles_read_again) {
+        read(part);
+        return true;
+    }
+    read_place(part);
+    return false;
+}
+
+ServerPart* ServerBodies::soft_part(SessionHandle body) const {
+    const std::uint64_t id = mirrors_.node_of(body);
+    const auto found =
+        std::ranges::find_if(parts_, [id](const auto& entry) { return id != 0 && entry.second->id == id; });
+    return found != parts_.end() && found->second->soft != nullptr ? found->second.get() : nullptr;
+}
+
+// What the contacts of a hand have given it since the last frame, soft bodies get: each its share by the
+// forces of now, or the last one where the hand has just left it.
+void ServerBodies::push_soft(const ProxyState& hand, const Vec3& impulse) {
+    Pressing& pressing = pressing_[hand.handle];
+    if (const auto surface = pressing.surface.lock(); surface != nullptr && hand.contact_count == 0) {
+        surface->push(pressing.point, impulse);
+        pressing.surface.reset();
+    }
+    const auto forces = std::span(hand.forces).first(static_cast<std::size_t>(hand.contact_count));
+    double all = 0.0;
+    for (const Vec3& force : forces) {
+        all += glm::length(force);
+    }
+    for (std::size_t i = 0; i < forces.size(); ++i) {
+        const ServerPart* const part = soft_part(hand.bodies[i]);
+        if (part != nullptr) {
+            part->soft->push(hand.points[i], all > 0.0 ? impulse * (glm::length(forces[i]) / all)
+                                                       : impulse / static_cast<double>(forces.size()));
+            pressing.surface = part->soft;
+            pressing.point = hand.points[i];
+        }
+    }
+}
+
+// The coupling of a tool is too stiff for what is moved once a frame: it feels it, and presses nothing in.
+void ServerBodies::push_soft(const PhysicsFrame& frame) {
+    const SessionSnapshot& snapshot = frame.session.snapshot();
+    const auto received = std::exchange(received_, snapshot.received);
+    for (std::size_t i = 0; frame.keeps_time && i < snapshot.proxy_count; ++i) {
+        const ProxyState& hand = snapshot.proxies[i];
+        push_soft(hand, received[hand.handle] - snapshot.received[hand.handle]);
+    }
+}
+
+void ServerBodies::exchange(std::span<const CloseShape> close, double radius, PhysicsFrame frame) {
+    if (close.empty() && parts_.empty() && soft_bodies_.empty()) {
         return;
     }
-    find(close);
+    find(close, radius, frame);
     ++frames_;
     ids_.clear();
     std::vector<std::uint64_t>& changed = mirrors_.news()->changed;
@@ -200,18 +316,15 @@ void ServerBodies::exchange(std::span<const CloseShape> close, PhysicsFrame fram
     }
     for (const auto& part : parts_ | std::views::values) {
         ids_.push_back(part->id);
-        const bool is_turn = (frames_ + part->id) % frames_between_readings == 0;
-        if (is_turn && triangle_count(part->form) <= max_triangles_read_again) {
-            read(*part);
+        if (read_again(*part)) {
             changed.push_back(part->id);
-        } else {
-            read_place(*part);
         }
     }
     std::ranges::sort(ids_);
     mirrors_.news()->moved = ids_;
     frame.close = ids_;
     mirrors_.exchange(frame);
+    push_soft(frame);
 }
 
 void ServerBodies::synchronise(const MirrorContext& context) {

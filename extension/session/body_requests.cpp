@@ -33,11 +33,6 @@ ReadyBody Session::prepare_body(const BodyAddition& addition, const ParallelRunn
         ready.soft =
             std::make_shared<SoftSlot>(addition.soft, addition.soft_view, description.collision.mask, run);
         ready.touch = {ready.soft, &ready.soft->form()};
-        // The rigid world has it as a place alone.
-        description.shapes = {{SphereShape{std::max(1e-3, 0.5 * addition.soft->size)}, {}}};
-        description.collision = {0, 0};
-        description.motion = Motion::Static;
-        description.may_move = false;
     } else {
         ready.touch = addition.touch;
     }
@@ -50,6 +45,14 @@ ReadyBody Session::prepare_body(const BodyAddition& addition, const ParallelRunn
     }
     if (!ready.error.empty()) {
         return ready;
+    }
+    if (addition.soft || addition.only_touched) {
+        // The rigid world has it as a place alone.
+        const double reach = addition.soft ? 0.5 * addition.soft->size : ready.touch->reach;
+        description.shapes = {{SphereShape{std::max(1e-3, reach)}, {}}};
+        description.collision = {0, 0};
+        description.motion = Motion::Static;
+        description.may_move = false;
     }
     ready.body = prepare(description);
     ready.error = ready.body.error();
@@ -83,7 +86,8 @@ AddResult Session::add_body(ReadyBody&& body, const FormerBody& former) {
     }
     impl_->send(command::AddBody{handle, std::move(body.body), std::move(body.same_body),
                                  std::move(body.touch), body.material, std::move(body.detail), body.layer,
-                                 body.pose, body.motion, former, std::move(body.soft)});
+                                 body.pose, body.motion, former, std::move(body.soft),
+                                 body.source.only_touched});
     return {handle, {}};
 }
 

@@ -10,7 +10,8 @@ namespace tactus {
 
 call::Form call::Form::of(const ReadyBody& body) {
     const BodyAddition& source = body.source;
-    Form form{source.description, source.touch_shapes, source.touch_material, source.detail, {}, nullptr};
+    Form form{source.description, source.touch_shapes, source.touch_material, source.detail, {}, nullptr,
+              source.only_touched};
     if (source.soft) {
         form.soft = {source.soft, &source.soft->design};
         return form;

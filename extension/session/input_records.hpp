@@ -32,6 +32,7 @@ struct Form {
     // would touch alike, but not to the last bit.
     std::vector<std::uint64_t> lineages;
     std::shared_ptr<const SoftDesign> soft;  // null: it does not give
+    bool only_touched = false;               // see BodyAddition
 
     static Form of(const ReadyBody& body);
     const std::vector<PlacedShape>& touched() const {
@@ -336,7 +337,7 @@ inline constexpr int members<HeldParts> = 3;
 template <>
 inline constexpr int members<SoftDesign> = 8;
 template <>
-inline constexpr int members<call::Form> = 6;
+inline constexpr int members<call::Form> = 7;
 template <>
 inline constexpr int members<command::RemoveBody> = 1;
 template <>

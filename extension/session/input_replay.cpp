@@ -280,6 +280,7 @@ ReadyBody InputReplay::prepared(const call::Form& form) {
     addition.touch_shapes = form.touch_shapes;
     addition.touch_material = form.touch_material;
     addition.detail = form.detail;
+    addition.only_touched = form.only_touched;
     return Session::prepare_body(addition);
 }
 

@@ -46,6 +46,7 @@ struct BodyAddition {
     // model's tick.
     std::shared_ptr<const SoftModel> soft;
     std::shared_ptr<SoftView> soft_view;  // shows its form; null: nobody looks
+    bool only_touched = false;            // it stays where it is put, and nothing collides with it
 };
 
 // A body for which everything that takes time or memory has happened.

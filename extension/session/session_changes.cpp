@@ -95,6 +95,7 @@ bool SessionLoop::carry_out(command::AddBody& c, Retired& retired) {
     added.detail = std::move(c.detail);
     added.motion = c.motion;
     added.soft = std::move(c.soft);
+    added.only_touched = c.only_touched;
     if (added.soft) {
         giving_.push_back(c.handle);
     }
@@ -320,7 +321,7 @@ bool SessionLoop::carry_out(command::SetBodyLayers& c, Retired&) {
     if (const Body* const changed = body(c.handle)) {
         if (changed->soft) {
             changed->soft->mask = c.layers.mask;
-        } else {
+        } else if (!changed->only_touched) {
             physics_.set_collision(changed->id, c.layers);
         }
         scene_.set_layer(changed->slot, c.layers.layer);
@@ -562,7 +563,7 @@ struct Duplicate {
                                 c.material, c.detail,
                                 c.layer,    c.pose,
                                 c.motion,   c.former,
-                                nullptr};
+                                nullptr,    c.only_touched};
         return true;
     }
     bool operator()(command::DeformBody& c) {

@@ -32,6 +32,7 @@ struct AddBody {
     Motion motion;
     FormerBody former;
     std::shared_ptr<SoftSlot> soft;  // owns `shape`, then; null: it does not give
+    bool only_touched = false;       // see BodyAddition
 };
 struct RemoveBody {
     SessionHandle handle;

@@ -37,10 +37,14 @@ void SessionLoop::break_surfaces(ProxySlot& slot, const HandForce& force) {
 
 // Once a tick, from what both kinds of hands touch by now.
 void SessionLoop::note_events() {
-    for (ProxySlot& slot : proxies_) {
+    for (std::size_t i = 0; i < proxies_.size(); ++i) {
+        ProxySlot& slot = proxies_[i];
         if (slot.proxy) {
             note_impacts(slot);
             note_breaks(slot);
+            for (int k = 0; k < slot.parts.contact_count; ++k) {
+                received_[i] += seconds_ * slot.parts.contacts[k].on_hand;
+            }
         }
     }
     for (const std::unique_ptr<ToolSlot>& slot : tools_) {

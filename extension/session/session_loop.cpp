@@ -322,6 +322,7 @@ void SessionLoop::publish(Nanoseconds now) {
             out.touch_events[i] = proxies_[i].events;
         }
     }
+    out.received = received_;
     out.tool_count = 0;
     for (std::size_t i = 0; i < tools_.size(); ++i) {
         if (tools_[i]) {

@@ -236,6 +236,9 @@ struct SessionSnapshot {
     std::size_t tool_count = 0;
     // Of all hands, by hand_of_tool() where it is that of a tool.
     std::array<TouchEvents, max_proxies + max_tools> touch_events;
+    // By proxy: what contacts have given it in all, and those that had its handle before (unit: newton
+    // seconds).
+    std::array<Vec3, max_proxies> received{};
     std::array<DeviceState, max_devices> devices;
     std::size_t device_count = 0;
     std::array<LedState, max_led> led;

@@ -292,6 +292,7 @@ BuiltBody build_body(const BodyPlan& plan, const ParallelRunner& run) {
         return result;
     }
     addition.touch = std::move(touch);
+    addition.only_touched = plan.form.only_touched;
     put_into(addition, plan.values);
     put_into(description, plan.makings);
     if (plan.makings.solid_of_mesh) {

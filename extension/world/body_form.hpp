@@ -31,6 +31,7 @@ struct BodyForm {
     std::vector<MeshDraft> touched;     // instead of these
     std::shared_ptr<SoftPlan> soft;     // instead of all; null: it does not give
     std::vector<std::string> problems;  // of single shapes; the rest of the body can still be touched
+    bool only_touched = false;          // nothing collides with it
     bool touchable = false;             // false: nothing is left to touch, the problems say why
 };
 

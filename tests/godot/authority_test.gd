@@ -315,12 +315,12 @@ func test_a_choice_that_is_made_late_loses_no_motion() -> void:
 	check(places[0].x > 0.3, "it went to %s" % places[0])
 
 
-func test_a_soft_body_is_said() -> void:
+func test_a_soft_body_without_a_mesh_is_said() -> void:
 	var world := add_godot_world()
 	var soft := SoftBody3D.new()
 	soft.name = "Soft"
 	world.add_child(soft)
-	expect_error("a SoftBody3D is not carried over")
+	expect_error("a SoftBody3D without a mesh of indexed triangles is not felt")
 	await get_tree().physics_frame
 	world.advance(FRAME)
 	check("\n".join(world.get_problems()).contains("Soft"), "%s" % world.get_problems())
