@@ -394,23 +394,23 @@ private:
     std::vector<SessionHandle> handle_of_slot_;  // touch scene slot to handle
     std::vector<SessionHandle> handle_of_id_;    // physics body to handle, by index
     std::vector<SessionHandle> travelling_;
-    std::vector<SessionHandle> forming_;  // bodies that take another form in the coming tick
-    std::vector<SessionHandle> giving_;   // bodies that give
-    std::size_t soft_turn_ = 0;           // of those, the first in the next tick
-    std::size_t slowed_soft_ = 0;         // of those, left out in the last
-    std::vector<SessionHandle> pushed_;   // bodies with a push of their own
-    std::vector<SessionHandle> helped_;   // bodies with a residual
-    std::vector<SessionHandle> guessed_;  // bodies that were seen to move
+    std::vector<SessionHandle> forming_;        // bodies that take another form in the coming tick
+    std::vector<SessionHandle> giving_;         // bodies that give
+    std::size_t soft_turn_ = 0;                 // of those, the first in the next tick
+    std::size_t slowed_soft_ = 0;               // of those, left out in the last
+    std::vector<SessionHandle> pushed_;         // bodies with a push of their own
+    std::vector<SessionHandle> helped_;         // bodies with a residual
+    std::vector<SessionHandle> guessed_;        // bodies that were seen to move
     std::array<Vec3, max_proxies> received_{};  // see SessionSnapshot
-    std::vector<Led> led_;                                  // see Session::lead_body
-    std::vector<JointId> joints_;                           // by handle
-    std::vector<SessionHandle> magnets_;                    // bodies that pull before they are touched
-    std::uint64_t magnet_changes_ = 0;                      // how often one came, went or was described anew
-    std::vector<Vec3> hands_;                               // where the proxies are (unit: meters)
-    std::vector<BodyState> states_;                         // of all bodies that are not static, dense
-    ChangeOrder state_changes_;                             // of states_
-    std::vector<std::uint32_t> state_of_;                   // by handle; no_handle: none
-    std::uint64_t states_changed_at_ = 0;                   // tick at which a state came or went
+    std::vector<Led> led_;                      // see Session::lead_body
+    std::vector<JointId> joints_;               // by handle
+    std::vector<SessionHandle> magnets_;        // bodies that pull before they are touched
+    std::uint64_t magnet_changes_ = 0;          // how often one came, went or was described anew
+    std::vector<Vec3> hands_;                   // where the proxies are (unit: meters)
+    std::vector<BodyState> states_;             // of all bodies that are not static, dense
+    ChangeOrder state_changes_;                 // of states_
+    std::vector<std::uint32_t> state_of_;       // by handle; no_handle: none
+    std::uint64_t states_changed_at_ = 0;       // tick at which a state came or went
     std::array<DeviceSlot, max_devices> devices_;
     std::array<ProxySlot, max_proxies> proxies_;
     std::array<std::unique_ptr<ToolSlot>, max_tools> tools_;  // by handle
