@@ -318,6 +318,7 @@ void list_classes() {
     same<TypedArray<Dictionary> (Object::*)(const StringName&) const>(&Object::get_signal_connection_list);
     same<Variant (Object::*)() const>(&Object::get_script);
     same<Variant (Object::*)(const StringName&) const>(&Object::get);
+    same<void (Object::*)(const StringName&, const Variant&)>(&Object::set_meta);
     same<Variant (Object::*)(const StringName&, const Array&)>(&Object::callv);
     same<bool (Object::*)(const String&) const>(&Object::is_class);
     same<bool (Object::*)(const StringName&) const>(&Object::has_method);
@@ -364,6 +365,14 @@ void list_classes() {
     same<void (PhysicsServer3D::*)(const RID&, PhysicsServer3D::BodyMode)>(&PhysicsServer3D::body_set_mode);
     same<void (PhysicsServer3D::*)(const RID&, const Vector3&)>(&PhysicsServer3D::body_apply_central_impulse);
     same<void (PhysicsServer3D::*)(const RID&, const Vector3&)>(&PhysicsServer3D::body_apply_torque_impulse);
+    same<AABB (PhysicsServer3D::*)(const RID&) const>(&PhysicsServer3D::soft_body_get_bounds);
+    same<uint32_t (PhysicsServer3D::*)(const RID&) const>(&PhysicsServer3D::soft_body_get_collision_layer);
+    same<uint32_t (PhysicsServer3D::*)(const RID&) const>(&PhysicsServer3D::soft_body_get_collision_mask);
+    same<Vector3 (PhysicsServer3D::*)(const RID&, int32_t) const>(
+        &PhysicsServer3D::soft_body_get_point_global_position);
+    same<RID (PhysicsServer3D::*)(const RID&) const>(&PhysicsServer3D::soft_body_get_space);
+    same<float (PhysicsServer3D::*)(const RID&) const>(&PhysicsServer3D::soft_body_get_total_mass);
+    same<bool (PhysicsServer3D::*)(const RID&, int32_t) const>(&PhysicsServer3D::soft_body_is_point_pinned);
 
     same<void (PhysicsShapeQueryParameters3D::*)(const TypedArray<RID>&)>(
         &PhysicsShapeQueryParameters3D::set_exclude);
