@@ -5,6 +5,7 @@
 #include <godot_cpp/classes/character_body3d.hpp>
 #include <godot_cpp/classes/physics_body3d.hpp>
 #include <godot_cpp/classes/physics_server3d.hpp>
+#include <godot_cpp/classes/project_settings.hpp>
 #include <godot_cpp/classes/static_body3d.hpp>
 
 #include "nodes/body_parts.hpp"
@@ -115,6 +116,12 @@ void hold_still(const RigidBody3D& body, bool held) {
 
 BodyForm read_form(CollisionObject3D& body, bool engine_moves) {
     return read_form(body, scaling_of(frame_of(body.get_global_transform())), engine_moves);
+}
+
+bool has_physics_thread() {
+    static const bool has_one =
+        ProjectSettings::get_singleton()->get_setting("physics/3d/run_on_separate_thread", false);
+    return has_one;
 }
 
 bool is_disabled(const Node& node) {

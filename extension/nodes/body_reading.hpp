@@ -23,6 +23,9 @@ void hold_still(const godot::RigidBody3D& body, bool held);
 double told(const godot::RID& body, godot::PhysicsServer3D::BodyParameter what);
 SurfaceMaterial told_surface(const godot::RID& body);
 
+// Godot's physics runs in a thread of its own: chosen before the program starts.
+bool has_physics_thread();
+
 // Of any of the bodies that can have one.
 godot::Ref<godot::PhysicsMaterial> material_of(const godot::CollisionObject3D& body);
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "nodes/body_parts.hpp"
+#include "nodes/body_reading.hpp"
 #include "nodes/godot_joint.hpp"
 #include "nodes/passed_over.hpp"
 #include "nodes/scene_warnings.hpp"
@@ -115,7 +116,7 @@ namespace {
 // A server with a thread of its own has still to do what scripts have told it, and its queries find bodies
 // that are freed. Its answers come when all of that is done.
 void await_server(const Node3D& world) {
-    if (const Ref<World3D> around = world.get_world_3d(); around.is_valid()) {
+    if (const Ref<World3D> around = world.get_world_3d(); has_physics_thread() && around.is_valid()) {
         PhysicsServer3D::get_singleton()->space_is_active(around->get_space());
     }
 }

@@ -22,6 +22,8 @@ namespace {
 // Each is asked for in every frame, which takes about 0.03 us.
 constexpr std::size_t max_vertices = 10'000;
 
+constexpr double largest = 100.0;  // (unit: meters)
+
 // A hand pushes this share of the vertices, those next to the contact: one alone would be thrown through its
 // neighbors within a frame.
 constexpr double patch_share = 0.1;
@@ -42,10 +44,6 @@ std::uint64_t id_of(const Ref<Mesh>& mesh) {
 std::optional<SurfaceCorners> surface_of(const MeshInstance3D& body) {
     const Ref<Mesh> mesh = body.get_mesh();
     return mesh.is_valid() && mesh->get_surface_count() > 0 ? corners_of(mesh, 0) : std::nullopt;
-}
-
-bool has_thread_of_its_own() {
-    return ProjectSettings::get_singleton()->get_setting("physics/3d/run_on_separate_thread", false);
 }
 
 // Godot Physics takes an impulse by its own number of the vertex, which is that of the first corner at its
@@ -100,7 +98,7 @@ void SoftSurface::read_mesh(const MeshInstance3D& body) {
     if (corners_.size() > max_vertices) {
         problem_ = "a SoftBody3D of more than " + std::to_string(max_vertices) +
                    " vertices is not felt: give it a simpler mesh";
-    } else if (has_thread_of_its_own()) {
+    } else if (has_physics_thread()) {
         problem_ =
             "a SoftBody3D is not felt where Godot's physics has a thread of its own: switch off the project "
             "setting 'physics/3d/run_on_separate_thread'";
@@ -137,6 +135,9 @@ bool SoftSurface::is_close(std::span<const Vec3> hands, double radius) const {
     }
     const AABB bounds = physics_server().soft_body_get_bounds(rid_);
     const Vec3 low = from_godot(bounds.position), high = from_godot(bounds.get_end());
+    if (!(glm::distance(low, high) < largest)) {
+        return false;  // Godot's physics has torn it apart
+    }
     return std::ranges::any_of(
         hands, [&](const Vec3& hand) { return glm::distance(glm::clamp(hand, low, high), hand) < radius; });
 }
