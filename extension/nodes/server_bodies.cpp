@@ -262,11 +262,11 @@ bool ServerBodies::read_again(ServerPart& part) const {
     return false;
 }
 
-ServerPart* ServerBodies::soft_part(SessionHandle body) const {
+const ServerPart* ServerBodies::part_of(SessionHandle body) const {
     const std::uint64_t id = mirrors_.node_of(body);
     const auto found =
         std::ranges::find_if(parts_, [id](const auto& entry) { return id != 0 && entry.second->id == id; });
-    return found != parts_.end() && found->second->soft != nullptr ? found->second.get() : nullptr;
+    return found != parts_.end() ? found->second.get() : nullptr;
 }
 
 // What the contacts of a hand have given it since the last frame, soft bodies get: each its share by the
@@ -283,8 +283,8 @@ void ServerBodies::push_soft(const ProxyState& hand, const Vec3& impulse) {
         all += glm::length(force);
     }
     for (std::size_t i = 0; i < forces.size(); ++i) {
-        const ServerPart* const part = soft_part(hand.bodies[i]);
-        if (part != nullptr) {
+        const ServerPart* const part = part_of(hand.bodies[i]);
+        if (part != nullptr && part->soft != nullptr) {
             part->soft->push(hand.points[i], all > 0.0 ? impulse * (glm::length(forces[i]) / all)
                                                        : impulse / static_cast<double>(forces.size()));
             pressing.surface = part->soft;
@@ -345,10 +345,8 @@ void ServerBodies::synchronise(const MirrorContext& context) {
 }
 
 std::uint64_t ServerBodies::owner_of(SessionHandle body) const {
-    const std::uint64_t id = mirrors_.node_of(body);
-    const auto found =
-        std::ranges::find_if(parts_, [id](const auto& entry) { return id != 0 && entry.second->id == id; });
-    return found != parts_.end() ? found->second->owner : 0;
+    const ServerPart* const part = part_of(body);
+    return part != nullptr ? part->owner : 0;
 }
 
 }  // namespace tactus

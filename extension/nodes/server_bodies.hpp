@@ -74,7 +74,7 @@ private:
     void find_soft(std::uint64_t owner, const std::shared_ptr<SoftSurface>& surface,
                    const PhysicsFrame& frame);
     bool read_again(ServerPart& part) const;
-    ServerPart* soft_part(SessionHandle body) const;
+    const ServerPart* part_of(SessionHandle body) const;  // null: it is none of these
     void push_soft(const PhysicsFrame& frame);
     void push_soft(const ProxyState& hand, const Vec3& impulse);
 

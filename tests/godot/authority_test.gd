@@ -82,14 +82,6 @@ class Game:
 		return found
 
 
-func add_godot_world() -> HapticWorld:
-	var world := HapticWorld.new()
-	world.clock = HapticWorld.CLOCK_STEPPED
-	world.authority = HapticWorld.AUTHORITY_GODOT
-	add_child(world)
-	return world
-
-
 ## Faster than the clock: as many frames of the same length in less time.
 func _hurry(fast: bool, frames_a_second := 60) -> void:
 	Engine.physics_ticks_per_second = frames_a_second * (SPEEDUP if fast else 1)

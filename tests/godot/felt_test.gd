@@ -7,15 +7,6 @@ const STIFFNESS := 500.0
 const DEPTH := 0.01
 
 
-func _world() -> HapticWorld:
-	var world := HapticWorld.new()
-	world.clock = HapticWorld.CLOCK_STEPPED
-	world.authority = HapticWorld.AUTHORITY_GODOT
-	world.default_material = material(STIFFNESS)
-	add_child(world)
-	return world
-
-
 func _play(world: HapticWorld, seconds: float) -> void:
 	for _i in int(seconds / FRAME):
 		await get_tree().physics_frame
@@ -45,7 +36,7 @@ func _server_body(shape: RID, mode := PhysicsServer3D.BODY_MODE_STATIC, at := Ve
 
 
 func test_a_grid_map() -> void:
-	var world := _world()
+	var world := add_godot_world(material(STIFFNESS))
 	var grid := tiles(20)
 	world.add_child(grid)
 	var proxy := _add_pressing_hand(world)
@@ -60,7 +51,7 @@ func test_a_grid_map() -> void:
 
 
 func test_csg() -> void:
-	var world := _world()
+	var world := add_godot_world(material(STIFFNESS))
 	var csg := CSGBox3D.new()
 	csg.use_collision = true
 	csg.size = Vector3(2, 0.4, 2)
@@ -72,7 +63,7 @@ func test_csg() -> void:
 
 
 func test_a_height_map_that_only_the_server_knows() -> void:
-	var world := _world()
+	var world := add_godot_world(material(STIFFNESS))
 	var shape := PhysicsServer3D.heightmap_shape_create()
 	var heights := PackedFloat32Array()
 	heights.resize(64)
@@ -91,7 +82,7 @@ func test_a_height_map_that_only_the_server_knows() -> void:
 
 
 func _check_server_shape(shape: RID, data: Variant) -> void:
-	var world := _world()
+	var world := add_godot_world(material(STIFFNESS))
 	PhysicsServer3D.shape_set_data(shape, data)
 	var body := _server_body(shape)
 	var proxy := _add_pressing_hand(world)
@@ -119,7 +110,7 @@ func test_a_plane_that_only_the_server_knows() -> void:
 
 
 func test_a_body_that_a_script_moves_by_the_server() -> void:
-	var world := _world()
+	var world := add_godot_world(material(STIFFNESS))
 	var shape := PhysicsServer3D.box_shape_create()
 	PhysicsServer3D.shape_set_data(shape, Vector3(0.5, 0.1, 0.5))
 	var body := _server_body(shape, PhysicsServer3D.BODY_MODE_KINEMATIC, Vector3(0, -0.1, 0))
@@ -137,7 +128,7 @@ func test_a_body_that_a_script_moves_by_the_server() -> void:
 
 
 func test_a_body_that_godot_moves_and_no_node_has_is_pushed() -> void:
-	var world := _world()
+	var world := add_godot_world(material(STIFFNESS))
 	add_floor(world)
 	var shape := PhysicsServer3D.box_shape_create()
 	PhysicsServer3D.shape_set_data(shape, Vector3.ONE * 0.05)
@@ -153,7 +144,7 @@ func test_a_body_that_godot_moves_and_no_node_has_is_pushed() -> void:
 
 ## A bone of a ragdoll that has not begun to fall, and has.
 func test_a_bone() -> void:
-	var world := _world()
+	var world := add_godot_world(material(STIFFNESS))
 	add_floor(world)
 	var skeleton := Skeleton3D.new()
 	skeleton.add_bone("Bone")
@@ -176,7 +167,7 @@ func test_a_bone() -> void:
 
 ## Godot's Jolt finds a mesh once for each of its triangles.
 func test_meshes_of_many_triangles_hide_nothing_that_is_close() -> void:
-	var world := _world()
+	var world := add_godot_world(material(STIFFNESS))
 	var plane := PlaneMesh.new()
 	plane.subdivide_depth = 150
 	plane.subdivide_width = 150
@@ -198,7 +189,7 @@ func test_meshes_of_many_triangles_hide_nothing_that_is_close() -> void:
 
 ## Also what stands far from hands, or belongs to a node that is not below the world.
 func test_no_more_than_is_close_is_looked_at() -> void:
-	var world := _world()
+	var world := add_godot_world(material(STIFFNESS))
 	var shape := PhysicsServer3D.box_shape_create()
 	PhysicsServer3D.shape_set_data(shape, Vector3.ONE * 0.01)
 	var bodies: Array[RID] = []
@@ -222,7 +213,7 @@ func test_no_more_than_is_close_is_looked_at() -> void:
 
 
 func test_what_cannot_be_felt_is_said() -> void:
-	var world := _world()
+	var world := add_godot_world(material(STIFFNESS))
 	var shape := PhysicsServer3D.separation_ray_shape_create()
 	PhysicsServer3D.shape_set_data(shape, {"length": 0.5, "slide_on_slope": false})
 	var box_shape := PhysicsServer3D.box_shape_create()

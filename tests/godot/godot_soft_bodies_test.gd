@@ -5,15 +5,6 @@ extends "nodes_case.gd"
 const FRAME := 1.0 / 60.0
 
 
-func _world() -> HapticWorld:
-	var world := HapticWorld.new()
-	world.clock = HapticWorld.CLOCK_STEPPED
-	world.authority = HapticWorld.AUTHORITY_GODOT
-	world.default_material = material(500.0)
-	add_child(world)
-	return world
-
-
 func _soft_body(mesh: Mesh, held: Callable) -> SoftBody3D:
 	var body := SoftBody3D.new()
 	body.mesh = mesh
@@ -84,7 +75,7 @@ func _play(world: HapticWorld, seconds: float) -> float:
 
 ## A hand above a soft body, which has come to rest.
 func _above(body: SoftBody3D, height := 0.0) -> HapticWorld:
-	var world := _world()
+	var world := add_godot_world(material(500.0))
 	body.position.y = height
 	world.add_child(body)
 	add_hand(world, path(Vector3(0, 0.8, 0), Vector3(0, 0.8, 0)))
@@ -134,7 +125,7 @@ func test_a_ball_is_felt() -> void:
 func test_a_push_arrives_once() -> void:
 	var space := get_viewport().world_3d.space
 	PhysicsServer3D.area_set_param(space, PhysicsServer3D.AREA_PARAM_GRAVITY, 0.0)
-	var world := _world()
+	var world := add_godot_world(material(500.0))
 	var ball := _ball(func(_at: Vector3) -> bool: return false)
 	ball.pressure_coefficient = 0.0
 	ball.damping_coefficient = 0.0
@@ -218,7 +209,7 @@ func test_what_lies_on_it_is_borne() -> void:
 
 
 func test_what_cannot_be_felt_is_said() -> void:
-	var world := _world()
+	var world := add_godot_world(material(500.0))
 	var large := PlaneMesh.new()
 	large.subdivide_width = 120
 	large.subdivide_depth = 120

@@ -13,6 +13,16 @@ func add_world() -> HapticWorld:
 	return world
 
 
+## Whose bodies Godot's own physics moves.
+func add_godot_world(surface: HapticMaterial = null) -> HapticWorld:
+	var world := HapticWorld.new()
+	world.clock = HapticWorld.CLOCK_STEPPED
+	world.authority = HapticWorld.AUTHORITY_GODOT
+	world.default_material = surface
+	add_child(world)
+	return world
+
+
 ## A scene of the demo, in stepped time as well.
 func add_scene(scene_path: String) -> Node:
 	var scene := (load(scene_path) as PackedScene).instantiate()

@@ -16,15 +16,6 @@ func _exit_tree() -> void:
 	get_tree().physics_interpolation = false
 
 
-func _world() -> HapticWorld:
-	var world := HapticWorld.new()
-	world.clock = HapticWorld.CLOCK_STEPPED
-	world.authority = HapticWorld.AUTHORITY_GODOT
-	world.default_material = material(500.0)
-	add_child(world)
-	return world
-
-
 func _block(world: HapticWorld, at: Vector3, label := "Block") -> RigidBody3D:
 	var block := with_shape(RigidBody3D.new(), box(Vector3.ONE * 0.1), at) as RigidBody3D
 	block.name = label
@@ -56,7 +47,7 @@ func _ticks(world: HapticWorld, count: int, felt: Felt) -> void:
 func _push(frames: PackedInt32Array, ticks_a_second := 60) -> Dictionary:
 	Engine.physics_ticks_per_second = ticks_a_second
 	await get_tree().physics_frame
-	var world := _world()
+	var world := add_godot_world(material(500.0))
 	add_floor(world).physics_material_override.friction = 0.4
 	var block := _block(world, Vector3(0, 0.05, 0))
 	add_hand(world, path(Vector3(-0.1, 0.05, 0), Vector3(0.1, 0.05, 0), 2.0))
@@ -100,7 +91,7 @@ func test_physics_interpolation_changes_nothing() -> void:
 
 ## The rate of the frames changes while the hand pushes, and so does the time of the game.
 func test_a_game_that_changes_its_time() -> void:
-	var world := _world()
+	var world := add_godot_world(material(500.0))
 	add_floor(world).physics_material_override.friction = 0.4
 	var block := _block(world, Vector3(0, 0.05, 0))
 	add_hand(world, path(Vector3(-0.1, 0.05, 0), Vector3(0.1, 0.05, 0), 2.0))
@@ -120,7 +111,7 @@ func test_a_game_that_changes_its_time() -> void:
 
 ## In real time a hand goes on as fast: it feels what is slow, and throws it not.
 func test_slow_motion_throws_no_body() -> void:
-	var world := _world()
+	var world := add_godot_world(material(500.0))
 	world.clock = HapticWorld.CLOCK_REAL_TIME
 	add_floor(world)
 	var block := _block(world, Vector3(0, 0.05, 0))
@@ -151,7 +142,7 @@ func test_a_pause_saves_up_no_impulse() -> void:
 func _pause(mode: ProcessMode, of_block: ProcessMode) -> void:
 	var what := "world %s, block %s" % [mode, of_block]
 	process_mode = PROCESS_MODE_ALWAYS
-	var world := _world()
+	var world := add_godot_world(material(500.0))
 	world.process_mode = mode
 	add_floor(world).physics_material_override.friction = 0.2
 	var block := _block(world, Vector3(0, 0.05, 0))
@@ -174,7 +165,7 @@ func _pause(mode: ProcessMode, of_block: ProcessMode) -> void:
 ## Each change happens while the hand presses down on the block. Whatever it is, the force stays within what
 ## the hand was pressed with, and does not jump.
 func _change(change: Callable, stays_pressed: bool, what: String) -> void:
-	var world := _world()
+	var world := add_godot_world(material(500.0))
 	add_floor(world)
 	var block := _block(world, Vector3(0, 0.05, 0))
 	var proxy := add_hand(world, path(Vector3(0.01, 0.3, 0.01), Vector3(0.01, 0.1, 0.01), 0.5))
@@ -268,7 +259,7 @@ func test_bodies_whose_engine_fails() -> void:
 
 func _fail(state: PhysicsServer3D.BodyState, value: Variant) -> void:
 	var what := "state %s is %s" % [state, value]
-	var world := _world()
+	var world := add_godot_world(material(500.0))
 	add_floor(world)
 	var block := _block(world, Vector3(0, 0.05, 0))
 	var up := Vector3(0.01, 0.3, 0.01)
@@ -302,7 +293,7 @@ func _fail(state: PhysicsServer3D.BodyState, value: Variant) -> void:
 
 ## A body is where it is, wherever it was when hands were last close to it.
 func test_no_ghost_stays_where_a_hand_has_left() -> void:
-	var world := _world()
+	var world := add_godot_world(material(500.0))
 	var block := _block(world, Vector3(0, 0, 0))
 	block.freeze_mode = RigidBody3D.FREEZE_MODE_KINEMATIC
 	block.freeze = true
